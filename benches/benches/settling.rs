@@ -1,4 +1,5 @@
-//! Times lists of neighbours, and passes of either form.
+//! Times the making of lists of neighbours, and passes of settling in the weighted and the block
+//! form.
 #![allow(
     missing_docs,
     clippy::unwrap_used,

@@ -37,7 +37,7 @@ fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
 
 /// Prints a row for each device and size. It has the time of a pass if ten are started at once, and
 /// the time of a pass alone. Both are medians of `rounds` runs by the host's clock, with the wait
-/// for the passes' measures. It also has the time and the result of one whole course of at most
+/// for the passes' measures. It also has the time and the result of one whole settling of at most
 /// `passes` passes.
 ///
 /// # Errors

@@ -22,8 +22,9 @@ const SIZE: [u32; 2] = [1600, 1200];
 const CLOSE: f32 = 0.02;
 
 /// Makes the meshes of the three designs in the folder `designs` on `device`, such as `wgpu:0`.
-/// Each is made a second time when the device is warm. Draws each design at full size and close up
-/// to PNG files in the folder `output`. Prints a table of the times beside the paper's.
+/// Makes each mesh twice, and times the second run, when the device is warm. Draws each whole cloth
+/// and a close-up of it to PNG files in the folder `output`. Prints a table of the times beside the
+/// paper's.
 ///
 /// # Errors
 ///

@@ -1,11 +1,10 @@
 //! Makes a cloth or its mesh several times, for a count of instructions: `instructions KIND TIMES`.
 //!
-//! KIND says what is made. These are meshes: `upright`, with upright frames; `flattened`, of
+//! KIND says what is made. The kinds of meshes are `upright`, with upright frames; `flattened`, of
 //! flattened yarns; `minimizing`, with rotation minimising frames and their scan; `bare`, without
-//! indices; `streamed`, as `upright`, but so large that it is written past the caches. These are
-//! the control points of a cloth: `crossing`, one point at each crossing; `round`, with threads
-//! bent round one another. The program prints how many rings or control points one mesh or cloth
-//! has.
+//! indices; `streamed`, as `upright`, but so large that it is written past the caches. The kinds of
+//! control points are `crossing`, one point at each crossing; `round`, with threads bent round one
+//! another. The program prints the number of rings of one mesh, or of control points of one cloth.
 
 use std::error::Error;
 

@@ -1,4 +1,5 @@
-//! Measures devices: beside their floor, stage by stage, and beside the paper's tables and figures.
+//! Measures devices. Compares them with their floor, which is a plain fill of as many bytes, times
+//! them stage by stage, and sets their times beside the paper's tables and figures.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -43,7 +44,7 @@ enum Args {
         /// Ends x picks
         #[arg(long, value_delimiter = ',', default_value = "360x230,720x460,1440x920,2880x1840")]
         sizes: Vec<Size>,
-        /// The most passes of a course
+        /// The most passes of a settling
         #[arg(long, default_value_t = 400)]
         passes: u32,
         /// Runs of each measurement

@@ -142,8 +142,8 @@ impl Bench {
     }
 }
 
-/// The bytes that two chunks may take at a time. On a device whose memory is the host's, the cloths
-/// of the tables would otherwise leave no memory for the rest.
+/// The bytes that two chunks may take at a time. Without this limit, the cloths of the tables would
+/// leave no memory for the rest on a device whose memory is the host's.
 const HOST_SHARE: u64 = 12 << 30;
 
 /// The median of some times.

@@ -1,4 +1,4 @@
-//! Writes the centrelines of the paper's cloth for other tools to mesh.
+//! Writes the centrelines of the paper's cloth for other tools, which make meshes of them.
 //!
 //! `polylines ENDS PICKS FOLDER` writes `points.f32` (x, y, z of each ring) and `offsets.u64` (the
 //! number of each yarn's first ring, and the number of all rings), both little-endian.

@@ -1,5 +1,5 @@
 //! Measures the time for a triangle by the size of the cloth, and with the whole cloth in one yarn.
-//! All run by turns in one process.
+//! All cloths are measured by turns in one process.
 //!
 //! `cargo run --release -p texere-bench --bin sizes -- [ROUNDS]`
 

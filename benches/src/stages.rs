@@ -46,7 +46,7 @@ pub struct Stages {
 pub struct Rests {
     /// Whether the yarns are at rest.
     pub at_rest: bool,
-    /// The least distance of two yarns, divided by the sum of both reaches.
+    /// The least distance of two yarns, divided by the distance at which they would touch.
     pub clearance: f64,
     /// The least radius of curvature of a knit, in diameters. None for woven cloth.
     pub radius: Option<f32>,

@@ -1,14 +1,15 @@
-//! Gives the shared library its soname, so that a program finds the library of its own binary
-//! interface when another one is installed beside it, and says whether there is Vulkan.
+//! Gives the shared library a soname with the number of the binary interface: a program then finds
+//! the library that it was built for, even if others are installed beside it. Sets the
+//! configuration `vulkan` if the library can lend objects of Vulkan.
 
 use std::error::Error;
 
-/// The header, which is made of the sources and says the number of the binary interface.
+/// The header, which is generated from the sources. It has the number of the binary interface.
 const HEADER: &str = "include/texere.h";
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed={HEADER}");
-    // Where wgpu has Vulkan.
+    // The systems on which wgpu has Vulkan.
     println!("cargo::rustc-check-cfg=cfg(vulkan)");
     let system = std::env::var("CARGO_CFG_TARGET_OS");
     if std::env::var_os("CARGO_FEATURE_WGPU").is_some()

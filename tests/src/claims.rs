@@ -32,8 +32,8 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     holds("pack", can.pack, Pipeline::new(&yarns).packed(device), refused)
 }
 
-/// Passes if `done` succeeds and the device claims the capability, or if `done` is refused and it
-/// does not.
+/// Passes if the device claims the capability and `done` succeeded, or if the device does not claim
+/// it and `done` was refused.
 fn holds<T, E: std::error::Error + Send + Sync + 'static>(
     what: &str,
     said: bool,

@@ -1,4 +1,4 @@
-//! Compares packed vertices with the mesh. They are unpacked in f64 by code of this file.
+//! Compares packed vertices with the mesh. This file has its own code that unpacks them, in f64.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -59,10 +59,10 @@ pub enum PackedError {
 /// own limits, and checks them.
 ///
 /// Each packed vertex has to lie within half a quantum of the mesh's vertex in each coordinate,
-/// with a normal that differs by the rounding of packing alone. Unless `exact` is set, a whole
-/// quantum and a little more for the rounding of f32 are allowed. A corner of a ring has to be
-/// packed alike wherever it occurs: in a cap, in a ring that a chunk or a closed yarn repeats, and
-/// in both cuts.
+/// with a normal that differs by the rounding of packing alone. Unless `exact` is set, a position
+/// may differ by a whole quantum, and both may differ a little more for the rounding of f32. A
+/// corner of a ring has to be packed alike wherever it occurs: in a cap, in a ring that a chunk or
+/// a closed yarn repeats, and in both cuts.
 ///
 /// ```
 /// use texere_conformance::{cases, check_packed};

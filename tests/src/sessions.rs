@@ -1,5 +1,6 @@
-//! Guarantees of every device and session besides meshes: plausible times, edits that move only
-//! their own bytes, claims that hold, packed vertices, and settled yarns that stay on their device.
+//! Checks the guarantees of every device and session besides meshes: times are plausible, an edit
+//! moves only its own bytes, the device can do what it claims, packed vertices lie on the mesh, and
+//! settled yarns stay on their device.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Arc, OnceLock};
@@ -90,7 +91,8 @@ fn every_stage_is_timed(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// A second scan takes no time without an upload between, and takes time after one.
+/// A second scan takes no time if nothing was uploaded since the first one, and takes time after an
+/// upload.
 fn a_second_scan_is_no_work(device: &dyn Backend) -> Result<(), Failed> {
     let (settings, yarn) = all_of(device);
     let yarns = cases::winding(2_500, yarn);

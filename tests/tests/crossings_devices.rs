@@ -1,5 +1,5 @@
 //! Settling of crossings on every device of the registry, against `cpu-serial`: positions of
-//! threads, the measures of passes, and whole courses.
+//! threads, the measures of passes, and whole courses. A course is here all passes of one settling.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

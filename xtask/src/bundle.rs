@@ -1,8 +1,8 @@
 //! `cargo xtask bundle`: the programs that test and measure texere, in a folder for a machine that
 //! has a GPU and no toolchain.
 //!
-//! The task downloads Debian's packages, so it needs `apt-get` and `dpkg`. The bundle is for the
-//! kind of processor on which it is made.
+//! The task downloads Debian's packages, so it needs `apt-get` and `dpkg`. The bundle runs on the
+//! kind of processor on which it was made.
 
 use std::fs;
 use std::io;
@@ -11,7 +11,7 @@ use std::path::Path;
 use crate::bench_tables::commit;
 use crate::steps::{Steps, command, root};
 
-/// The folder, from the repository's root. An archive of it lies beside.
+/// The bundle's folder, from the repository's root. An archive of the folder lies beside it.
 const FOLDER: &str = "target/bundle";
 
 /// Debian's packages with the loaders through which programs find drivers.

@@ -1,4 +1,5 @@
-//! Programs in C, C++ and C# that link the C library, as those of its users do.
+//! Builds and runs programs in C, C++ and C# that link the installed C library, as the programs of
+//! its users do.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +7,7 @@ use std::path::Path;
 use crate::install::install;
 use crate::steps::Steps;
 
-/// Debian's packages that build and run these programs.
+/// Debian's packages that build and run the programs in C, C++ and C#.
 pub(crate) const PACKAGES: [&str; 7] =
     ["cmake", "g++", "make", "mono-mcs", "mono-runtime", "pkg-config", "valgrind"];
 
@@ -50,7 +51,7 @@ fn compare(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Vertices, each a position and a normal, as bits, and triangles.
+/// A mesh. Each vertex holds the bits of six `f32` values, its position and its normal.
 #[derive(Debug, Default)]
 struct Mesh {
     vertices: Vec<[u32; 6]>,
@@ -97,7 +98,7 @@ impl Mesh {
         mesh
     }
 
-    /// The mesh of an array of vertices with one of indices behind it.
+    /// The mesh in a file that holds an array of vertices, and behind it an array of indices.
     fn of_arrays(file: &[u8], triangles: usize) -> Self {
         let (vertices, triangles) = file.split_at(file.len().saturating_sub(triangles * 12));
         let [vertices, triangles] = [vertices.chunks(24), triangles.chunks(12)];

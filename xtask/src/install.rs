@@ -1,8 +1,8 @@
 //! `cargo xtask install --prefix DIR`: the C library where compilers look for it.
 //!
-//! Headers for C and C++, shared and static library, a file for pkg-config, a package for CMake,
-//! what a NuGet package is made of, and examples. No file has the prefix inside, so the whole
-//! folder may be moved.
+//! The task installs headers for C and C++, the shared and the static library, a file for
+//! pkg-config, a package for CMake, the files of a NuGet package, and examples. No file contains
+//! the prefix, so the whole folder may be moved.
 
 use std::fs;
 use std::io;
@@ -64,7 +64,8 @@ fn assembly(steps: &mut Steps) -> &'static [&'static str] {
     &ASSEMBLY
 }
 
-/// Programs, and designs for them: the folder from the repository's root, and the file there.
+/// The example programs and their designs: the folder, from the repository's root, and the file in
+/// that folder.
 const EXAMPLES: [(&str, &str); 9] = [
     ("crates/texere-capi/examples", "mesh.c"),
     ("crates/texere-capi/examples", "yarns.c"),
@@ -134,9 +135,9 @@ fn link(to: &str, path: &Path) -> io::Result<()> {
     if made.success() { Ok(()) } else { Err(io::Error::other("ln makes no link")) }
 }
 
-/// Makes the file at `path`, and the folders that it lies in. `write` gets a path beside it, and
-/// the finished file is renamed. A program that runs thus keeps the library that it has loaded, and
-/// no file is ever half written.
+/// Makes the file at `path`, and the folders that it lies in. `write` writes to a path beside it,
+/// and the finished file is then renamed. No file at `path` is thus ever half written, and a
+/// running program keeps the library that it has loaded.
 fn put(path: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;

@@ -1,8 +1,9 @@
 //! Counts the instructions for a ring of a mesh and for a control point. This is a check of speed
 //! that other programs on the machine don't disturb.
 //!
-//! `valgrind --tool=callgrind` counts the instructions. The difference between two runs leaves out
-//! start-up.
+//! `valgrind --tool=callgrind` counts the instructions. Each count is the difference of two runs
+//! that differ only in how often they do their work, so it leaves out start-up. A path of the CPU
+//! backend is the kind of vector instructions that it uses, such as `portable` or `avx2`.
 
 use std::fmt::Write;
 use std::path::PathBuf;

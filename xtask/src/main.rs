@@ -1,5 +1,5 @@
-//! Tasks of the repository: `cargo xtask test` and `cargo xtask check`, which CI runs on every
-//! change, `cargo xtask mutate`, which it runs every week, measurements, and pictures.
+//! Tasks of the repository. CI runs `cargo xtask test` and `cargo xtask check` on every change, and
+//! `cargo xtask mutate` every week. Other tasks measure, draw pictures, and install.
 
 mod bench_tables;
 mod bundle;
@@ -10,6 +10,7 @@ mod instructions;
 mod mutants;
 mod mutate;
 mod publishing;
+mod python;
 mod sources;
 mod steps;
 mod workspace;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
             programs(&mut steps);
         }
         Some("hosts") => programs(&mut steps),
+        Some("python") => python(&mut steps),
         Some("demo") => demo::demo(&mut steps),
         Some("gallery") => demo::gallery(&mut steps),
         Some("bench-tables") => {
@@ -64,15 +66,18 @@ fn main() -> ExitCode {
         }
         _ => {
             eprintln!(
-                "usage: cargo xtask <demo | gallery | test | check | hosts | sources | mutate | instructions | bench-tables | bundle | install>"
+                "usage: cargo xtask <demo | gallery | test | check | hosts | python | sources | mutate | instructions | bench-tables | bundle | install>"
             );
             eprintln!("  demo   a picture of denim at rest; installs a Vulkan driver where there is none");
             eprintln!("  gallery  the pictures of docs/gallery");
-            eprintln!("  test   all tests, doctests and the conformance suite");
+            eprintln!(
+                "  test   all tests, doctests, the conformance suite and the tests of the Python package"
+            );
             eprintln!(
                 "  check  formatting, lints, docs, licences, spelling, packages, instruction counts, the README's main command and programs that link the C library"
             );
             eprintln!("  hosts  programs in C, C++ and C# that link the installed library");
+            eprintln!("  python  builds the Python package, installs it in target/python and tests it");
             eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
                 "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
@@ -94,13 +99,20 @@ fn main() -> ExitCode {
 }
 
 /// Runs all tests: a program that links the library, unit tests, integration tests, the conformance
-/// suite and doctests.
+/// suite, doctests and the tests of the Python package.
 fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
     install(steps, "a screen", &SCREEN);
     consumer(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+    python(steps);
+}
+
+/// Builds and tests the Python package.
+fn python(steps: &mut Steps) {
+    install(steps, "Python", &python::PACKAGES);
+    python::test(steps);
 }
 
 /// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Its
@@ -114,8 +126,8 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Installs Debian's `packages` if they are missing and can be installed. Without the software
-/// devices the suite ignores a backend, or fails if `TEXERE_REQUIRE` names it.
+/// Installs Debian's `packages` if they are missing and can be installed. If no device runs a
+/// backend, the suite leaves that backend out, or fails if `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
@@ -132,8 +144,8 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles and tests the facade without features and with each feature of a format or of pictures
-/// alone. Counts its packages with the default features.
+/// Compiles and tests the package `texere` without features, and then with one feature at a time.
+/// Counts the packages that it links with its default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "pictures", "ply", "toml", "wif"] {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
@@ -171,7 +183,7 @@ fn check(steps: &mut Steps) {
     features(steps);
     let documented = ["doc", "--workspace", "--no-deps", "--locked", "--document-private-items"];
     steps.cargo("docs", &documented, &[("RUSTDOCFLAGS", "-D warnings -A rustdoc::private_intra_doc_links")]);
-    // The docs of the facade with all features, and with the default ones.
+    // The docs of the package `texere` with all features, and with the default ones.
     for features in [&["--all-features"][..], &[]] {
         let facade = [&["doc", "--package", "texere", "--no-deps", "--locked"], features].concat();
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);

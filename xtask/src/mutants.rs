@@ -1,5 +1,5 @@
-//! The mutants that the suite has to catch: a line with a plausible mistake, in each kernel and in
-//! the prelude before all of them.
+//! The mutants that the conformance suite has to catch. There is a line with a plausible mistake in
+//! each kernel, and in the prelude, the definitions that stand before every kernel.
 
 /// A mutant: one line of a kernel or of the prelude, and a broken replacement.
 #[derive(Debug)]
@@ -8,7 +8,7 @@ pub(crate) struct Mutant {
     pub(crate) backend: &'static str,
     /// The source, from the repository's root.
     pub(crate) file: &'static str,
-    /// The kernel, or the definition in the file that all kernels use.
+    /// The kernel or the function that has the line, or `prelude`.
     pub(crate) kernel: &'static str,
     /// A part of a line that occurs once in the file.
     pub(crate) line: &'static str,
@@ -41,7 +41,8 @@ const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, brok
     Mutant { backend: "wgpu", file, kernel, line, broken }
 }
 
-/// All mutants. If twin files have the same line, each of them gets a fault of its own.
+/// All mutants. If the OpenCL and the WGSL file of a kernel have the same line, each file has a
+/// different mutant.
 pub(crate) const MUTANTS: &[Mutant] = &[
     // The arctangent uses a wrong coefficient.
     opencl(
@@ -62,7 +63,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     // The clamp at the yarn's last ring is left out: the ring lies at t = 0 of an interval that
     // does not exist.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
-    // The ring's own turn is counted in.
+    // The roll of a ring includes the turn of that ring itself.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
     // Every block gets the roll of its yarn's first block, which yarns of one block don't show.
     opencl(

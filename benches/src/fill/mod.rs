@@ -19,7 +19,7 @@ pub trait Fill: Debug {
     fn run(&mut self) -> Result<Duration, BackendError>;
 
     /// Copies all buffers to pinned memory of the host, and returns the time by the host's clock.
-    /// It shows the bandwidth of the bus.
+    /// This time shows the bandwidth of the bus.
     ///
     /// **Errors**: [`BackendError`] from the device.
     fn copy_to_host(&mut self) -> Result<Duration, BackendError>;

@@ -5,11 +5,11 @@ namespace Texere
     /// <summary>The check of a cloth: its measures, its faults, and single changes of the design that cure them.</summary>
     public sealed unsafe class Check : Handle
     {
-        /// <summary>Checks a cloth and its mesh, with the settings that suit its yarns unless others are given.</summary>
+        /// <summary>Checks a cloth and its mesh. Null settings stand for those that suit its yarns.</summary>
         /// <param name="cloth">The cloth.</param>
-        /// <param name="settings">What is chosen about the mesh.</param>
-        /// <param name="accuracy">The share by which yarns may come short of touching and not pierce.</param>
-        /// <param name="run">Progress, and an end before it is done.</param>
+        /// <param name="settings">The settings of the mesh.</param>
+        /// <param name="accuracy">The share by which yarns may come short of touching without a fault.</param>
+        /// <param name="run">Gets the progress, and can cancel the call.</param>
         public Check(
             Cloth cloth, Settings? settings = null, double accuracy = Native.TEXERE_ACCURACY, Run run = null)
             : base(Made(cloth, settings, accuracy, run)) { }

@@ -1,4 +1,4 @@
-// What all classes of Texere stand on: owned handles, exceptions, texts.
+// What all classes of Texere use: owned handles, exceptions, texts.
 
 using System;
 using System.Runtime.InteropServices;
@@ -9,9 +9,9 @@ namespace Texere
     /// <summary>Why a call failed.</summary>
     public enum Status
     {
-        /// <summary>A wrong size, something that was disposed of, or a value out of its range.</summary>
+        /// <summary>A value out of its range, a wrong size, or an object that was disposed of or is in use.</summary>
         Argument = 1,
-        /// <summary>The design can't be read, or its cloth can't be made.</summary>
+        /// <summary>A file holds no design or no yarns, or the cloth of a design can't be made.</summary>
         Design = 2,
         /// <summary>There is no such device, or it failed.</summary>
         Device = 3,
@@ -19,24 +19,24 @@ namespace Texere
         Memory = 4,
         /// <summary>A file can't be read or written.</summary>
         IO = 5,
-        /// <summary>The call ended early since <see cref="Run.Cancel"/> was called.</summary>
+        /// <summary>The call ended early, because <see cref="Run.Cancel"/> was called.</summary>
         Cancelled = 6,
-        /// <summary>The library was built without what the call needs, or the device can't do it.</summary>
+        /// <summary>The library was built without what the call needs, or the device does not support it.</summary>
         Unsupported = 7,
-        /// <summary>A fault of the library. It was caught, and the library can still be used.</summary>
+        /// <summary>The library itself is at fault. The fault was caught, and the library can still be used.</summary>
         Panic = 8,
     }
 
-    /// <summary>A call of the library that failed. Its message has all causes.</summary>
+    /// <summary>A call of the library failed. The message has all causes.</summary>
     public sealed class TexereException : Exception
     {
-        /// <summary>Why it failed.</summary>
+        /// <summary>Why the call failed.</summary>
         public Status Status { get; }
-        /// <summary>The design's file that is at fault; null where the error has no place.</summary>
+        /// <summary>The design's file that is at fault; null if the error has no place.</summary>
         public string File { get; }
-        /// <summary>The line, from 1; 0 where it is not known.</summary>
+        /// <summary>The line, counted from 1; 0 if it is not known.</summary>
         public ulong Line { get; }
-        /// <summary>The column, in letters from 1; 0 where it is not known.</summary>
+        /// <summary>The column, in letters counted from 1; 0 if it is not known.</summary>
         public ulong Column { get; }
 
         internal TexereException(Status status, string message, string file, ulong line, ulong column)
@@ -46,7 +46,7 @@ namespace Texere
         }
     }
 
-    /// <summary>Something that the library made. Disposing of it frees it; what was made from it stays valid.</summary>
+    /// <summary>An object of the library. Dispose frees it; objects that were made from it stay valid.</summary>
     public abstract unsafe class Handle : SafeHandle
     {
         static Handle()
@@ -63,10 +63,10 @@ namespace Texere
         /// <summary>Whether there is nothing to free.</summary>
         public sealed override bool IsInvalid => handle == IntPtr.Zero;
 
-        /// <summary>The handle for a call; one that was disposed of is null, which the library refuses.</summary>
+        /// <summary>The handle for a call. It is null after Dispose, and the library refuses null.</summary>
         internal void* Pointer => IsClosed ? null : (void*)handle;
 
-        /// <summary>A copy of a text that the library lends as long as this handle lives.</summary>
+        /// <summary>A copy of a text that the library lends until this handle is freed.</summary>
         internal string Copied(byte* lent)
         {
             var copied = Call.Text(lent);
@@ -78,8 +78,8 @@ namespace Texere
     internal static unsafe class Call
     {
         /// <summary>
-        /// Throws what went wrong in a call. <paramref name="used"/> is what the call used: it lives until here,
-        /// so that no finalizer frees it while the call runs.
+        /// Throws an exception if a call failed. <paramref name="used"/> are the objects that the call used. They
+        /// are kept alive until here, so that no finalizer frees them while the call runs.
         /// </summary>
         internal static void Check(texere_status status, params object[] used)
         {
@@ -91,13 +91,13 @@ namespace Texere
             throw new TexereException((Status)status, message, Text(place.file), place.line, place.column);
         }
 
-        /// <summary>A text of the library's; null where it is.</summary>
+        /// <summary>A copy of a text of the library's, or null for a null pointer.</summary>
         internal static string Text(byte* text) => Marshal.PtrToStringUTF8((IntPtr)text);
 
-        /// <summary>Writes a text to memory of <paramref name="size"/> bytes, and says how long it is.</summary>
+        /// <summary>A call that writes a text to memory of <paramref name="size"/> bytes, and its length.</summary>
         internal delegate texere_status Writes(byte* words, UIntPtr size, UIntPtr* length);
 
-        /// <summary>The text that a call writes where there is room for it.</summary>
+        /// <summary>The text of a call, which is made twice: for the length, and for the text.</summary>
         internal static string Written(Writes call, Handle used)
         {
             UIntPtr length;
@@ -110,7 +110,7 @@ namespace Texere
             return Encoding.UTF8.GetString(words, 0, (int)length);
         }
 
-        /// <summary>A text for the library.</summary>
+        /// <summary>A text as UTF-8, for the library.</summary>
         internal static byte[] Bytes(string text) =>
             Encoding.UTF8.GetBytes(text ?? throw new ArgumentNullException(nameof(text)));
     }

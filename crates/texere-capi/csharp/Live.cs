@@ -5,15 +5,15 @@ using System.Runtime.InteropServices;
 
 namespace Texere
 {
-    /// <summary>A stretch of vertices and indices that an update has made again.</summary>
+    /// <summary>A range of vertices and a range of indices that an update has made again.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Change
     {
-        /// <summary>The first vertex, from the start of the whole mesh.</summary>
+        /// <summary>The number of the first vertex in the whole mesh.</summary>
         public ulong FirstVertex;
         /// <summary>How many vertices there are.</summary>
         public ulong VertexCount;
-        /// <summary>The first index, from the start of the whole mesh.</summary>
+        /// <summary>The number of the first index in the whole mesh.</summary>
         public ulong FirstIndex;
         /// <summary>How many indices there are.</summary>
         public ulong IndexCount;
@@ -25,7 +25,7 @@ namespace Texere
     /// </summary>
     public sealed unsafe class Live : Handle
     {
-        /// <summary>Makes a live cloth, with the settings that suit its yarns unless others are given.</summary>
+        /// <summary>Makes a live cloth. Null settings stand for those that suit its yarns.</summary>
         public Live(Cloth cloth, Device device, Settings? settings = null) : base(Made(cloth, device, settings)) { }
 
         static texere_live* Made(Cloth cloth, Device device, Settings? settings)
@@ -50,12 +50,12 @@ namespace Texere
             }
         }
 
-        /// <summary>How many vertices the mesh had at the last update, with those of the room between yarns.</summary>
+        /// <summary>How many vertices the mesh had at the last update, with the room between yarns.</summary>
         public ulong Vertices => Counts.vertices;
-        /// <summary>How many indices the mesh had at the last update.</summary>
+        /// <summary>How many indices the mesh had at the last update, with the room between yarns.</summary>
         public ulong Indices => Counts.indices;
 
-        /// <summary>Whether the warp is up where an end and a pick cross; both count from 0.</summary>
+        /// <summary>Whether the warp is up where an end and a pick cross. Ends and picks count from 0.</summary>
         public bool this[ulong end, ulong pick]
         {
             get
@@ -67,7 +67,7 @@ namespace Texere
             set => Call.Check(Native.texere_live_set_lift(Own, end, pick, value ? 1u : 0), this);
         }
 
-        /// <summary>Gives a yarn, counted from 0, other control points, which may be more or fewer than before.</summary>
+        /// <summary>Gives a yarn, counted from 0, other control points. There may be more or fewer than before.</summary>
         public void SetPoints(ulong yarn, ReadOnlySpan<Point> points)
         {
             fixed (Point* first = points)
@@ -78,7 +78,7 @@ namespace Texere
             }
         }
 
-        /// <summary>Which indices draw which yarn: lent by the live cloth until its next update.</summary>
+        /// <summary>The draws, which say which indices draw which yarn. They are valid until the next update.</summary>
         public ReadOnlySpan<Draw> Draws
         {
             get
@@ -90,12 +90,12 @@ namespace Texere
         }
 
         /// <summary>Brings the edits to the mesh.</summary>
-        /// <param name="anew">Whether the mesh was begun again, so that sizes and places may be others.</param>
-        /// <returns>What was made again: lent by the live cloth until its next update.</returns>
+        /// <param name="anew">Whether the whole mesh was begun anew, so that sizes and draws may have changed.</param>
+        /// <returns>The ranges that were made again. They are valid until the next update.</returns>
         public ReadOnlySpan<Change> Update(out bool anew)
         {
             var update = new texere_update { struct_size = (uint)sizeof(texere_update) };
-            Call.Check(Native.texere_live_update(Own, &update), this);
+            Call.Check(Native.texere_live_update(Own, null, &update), this);
             anew = update.anew != 0;
             return new ReadOnlySpan<Change>(update.changes, checked((int)update.change_count));
         }
@@ -113,7 +113,7 @@ namespace Texere
             }
         }
 
-        /// <summary>Reads a change into spans as long as it says.</summary>
+        /// <summary>Reads a change into spans that have as many vertices and indices as it.</summary>
         public void Read(Change change, Span<Vertex> vertices, Span<uint> indices)
         {
             fixed (Vertex* firstVertex = vertices)
@@ -126,7 +126,7 @@ namespace Texere
             }
         }
 
-        /// <summary>The yarns as they are now, which stay so when the live cloth is edited.</summary>
+        /// <summary>A copy of the yarns as they are now. Later edits do not change it.</summary>
         public Yarns Yarns
         {
             get
@@ -137,7 +137,7 @@ namespace Texere
             }
         }
 
-        /// <summary>What a ray hits first; null where it hits nothing. Edits count before an update.</summary>
+        /// <summary>What a ray hits first, or null if it hits nothing. Edits count even before an update.</summary>
         public Hit? Pick(Ray ray)
         {
             Hit hit;

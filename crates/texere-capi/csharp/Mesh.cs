@@ -6,7 +6,7 @@ using System.Runtime.InteropServices;
 
 namespace Texere
 {
-    /// <summary>A place on the centreline of a yarn, mm.</summary>
+    /// <summary>A control point of a yarn, mm.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Point
     {
@@ -18,11 +18,11 @@ namespace Texere
         public float Z;
         /// <summary>Half the width of the yarn, across the cloth.</summary>
         public float HalfWidth;
-        /// <summary>Half the height of the yarn, out of the cloth. A round yarn has its half width.</summary>
+        /// <summary>Half the height of the yarn, out of the cloth. In a round yarn it is the half width.</summary>
         public float HalfHeight;
     }
 
-    /// <summary>A vertex of a tube: its position, mm, and its unit normal, out of the yarn.</summary>
+    /// <summary>A vertex of a tube: its position, mm, and its unit normal, which points out of the yarn.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Vertex
     {
@@ -44,47 +44,47 @@ namespace Texere
     [StructLayout(LayoutKind.Sequential)]
     public struct Draw
     {
-        /// <summary>The first of its indices.</summary>
+        /// <summary>The number of its first index in the mesh.</summary>
         public ulong FirstIndex;
-        /// <summary>How many indices it has, three a triangle, counter-clockwise seen from outside.</summary>
+        /// <summary>How many indices it has: three a triangle, counter-clockwise as seen from outside.</summary>
         public ulong IndexCount;
         /// <summary>What to add to an index to get the number of a vertex.</summary>
         public ulong BaseVertex;
-        /// <summary>How many vertices from <see cref="BaseVertex"/> on its indices may refer to.</summary>
+        /// <summary>How many vertices its indices may refer to, from <see cref="BaseVertex"/> on.</summary>
         public ulong VertexCount;
-        /// <summary>The yarn, from 0.</summary>
+        /// <summary>The yarn, counted from 0.</summary>
         public uint Yarn;
         readonly uint reserved;
     }
 
-    /// <summary>Where the outlines of yarns stand.</summary>
+    /// <summary>How sections stand along the yarn.</summary>
     public enum Frame : uint
     {
-        /// <summary>With their side level. Yarns that are too steep for that are carried along.</summary>
+        /// <summary>Upright, with their side at right angles to z. Steep yarns have RotationMinimizing instead.</summary>
         Upright = 0,
-        /// <summary>Carried along the yarn without turning.</summary>
+        /// <summary>Carried along the yarn without turning about it.</summary>
         RotationMinimizing = 1,
     }
 
     /// <summary>How triangles name their vertices.</summary>
     public enum Topology : uint
     {
-        /// <summary>Three indices a triangle, counted from the base vertex of their draw.</summary>
+        /// <summary>Three indices for each triangle, counted from the base vertex of their draw.</summary>
         Indexed = 0,
-        /// <summary>One pattern of indices for all draws.</summary>
+        /// <summary>One pattern of indices that all draws use, counted from the base vertex of each.</summary>
         Shared = 1,
         /// <summary>No indices.</summary>
         None = 2,
     }
 
-    /// <summary>What can be chosen about a mesh. <see cref="Yarns.Settings"/> gives those that suit yarns.</summary>
+    /// <summary>The settings of a mesh. <see cref="Yarns.Settings"/> gives those that suit yarns.</summary>
     public struct Settings
     {
-        /// <summary>Points that are inserted between two control points, from 0.</summary>
+        /// <summary>How many points are inserted between two control points, 0 or more.</summary>
         public uint Subdivisions;
-        /// <summary>Sides of the tubes, from 3.</summary>
+        /// <summary>How many sides the tubes have, 3 or more.</summary>
         public uint Sides;
-        /// <summary>Where outlines stand.</summary>
+        /// <summary>How sections stand along the yarn.</summary>
         public Frame Frame;
         /// <summary>How triangles name their vertices.</summary>
         public Topology Topology;
@@ -110,11 +110,11 @@ namespace Texere
     {
         internal Yarns(texere_yarns* made) : base(made) { }
 
-        /// <summary>Makes round and flattened yarns of arrays, which are copied.</summary>
-        /// <param name="offsets">Where the points of each yarn begin, from 0, and how many points there are in all.</param>
+        /// <summary>Makes yarns, round or flattened, of arrays, which are copied.</summary>
+        /// <param name="offsets">For each yarn the number of its first point; at the end the number of all points.</param>
         /// <param name="points">The points of all yarns, yarn after yarn.</param>
         /// <param name="closed">For each yarn 1 if its last point joins up with its first; empty if all are open.</param>
-        /// <param name="twist">For each yarn its twist, radians a mm, positive for Z; empty if none has any.</param>
+        /// <param name="twist">For each yarn its twist, radians per mm, positive for Z; empty if none is twisted.</param>
         /// <param name="tension">Tension of the splines through the points, from 0 to below 1.</param>
         public static Yarns Of(
             ReadOnlySpan<ulong> offsets, ReadOnlySpan<Point> points, ReadOnlySpan<byte> closed = default,
@@ -151,7 +151,7 @@ namespace Texere
             if ((ulong)given != needed) throw new ArgumentException($"{given} values, and {needed} are needed", name);
         }
 
-        /// <summary>Reads yarns that were saved in a .yarns file.</summary>
+        /// <summary>Reads yarns from a .yarns file.</summary>
         public static Yarns Read(string path)
         {
             texere_yarns* made;
@@ -160,7 +160,7 @@ namespace Texere
             return new Yarns(made);
         }
 
-        /// <summary>Saves the yarns in a .yarns file, to the bit.</summary>
+        /// <summary>Saves the yarns in a .yarns file, which keeps every bit of them.</summary>
         public void Write(string path)
         {
             var bytes = Call.Bytes(path);
@@ -181,12 +181,12 @@ namespace Texere
 
         /// <summary>How many yarns there are.</summary>
         public ulong Count => Counts.yarns;
-        /// <summary>How many control points they have in all.</summary>
+        /// <summary>How many control points all yarns have together.</summary>
         public ulong PointCount => Counts.points;
-        /// <summary>Tension of their splines.</summary>
+        /// <summary>Tension of the splines through the control points.</summary>
         public float Tension => Counts.tension;
 
-        /// <summary>Copies offsets, one more than yarns, and all control points.</summary>
+        /// <summary>Copies all control points, and offsets as in <see cref="Of"/>: one more than yarns.</summary>
         public void CopyTo(Span<ulong> offsets, Span<Point> points)
         {
             fixed (ulong* firstOffset = offsets)
@@ -224,12 +224,12 @@ namespace Texere
         }
     }
 
-    /// <summary>The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.</summary>
+    /// <summary>The plan of a mesh, which has all sizes of the mesh before the mesh is made.</summary>
     public sealed unsafe class Plan : Handle
     {
         readonly texere_counts counts;
 
-        /// <summary>Plans a mesh, with the settings that suit the yarns unless others are given.</summary>
+        /// <summary>Plans a mesh. Null settings stand for those that suit the yarns.</summary>
         public Plan(Yarns yarns, Device device, Settings? settings = null) : base(Made(yarns, device, settings))
         {
             var found = new texere_counts { struct_size = (uint)sizeof(texere_counts) };
@@ -247,7 +247,7 @@ namespace Texere
 
         internal texere_plan* Own => (texere_plan*)Pointer;
 
-        /// <summary>How many rings the yarns have.</summary>
+        /// <summary>How many rings all yarns have together.</summary>
         public ulong Rings => counts.rings;
         /// <summary>How many vertices the mesh has.</summary>
         public ulong Vertices => counts.vertices;
@@ -256,7 +256,7 @@ namespace Texere
         /// <summary>How many triangles the draws draw.</summary>
         public ulong Triangles => counts.triangles;
 
-        /// <summary>Which indices draw which yarn: lent by the plan, and valid until it is disposed of.</summary>
+        /// <summary>The draws, which say which indices draw which yarn. They are valid until Dispose.</summary>
         public ReadOnlySpan<Draw> Draws
         {
             get
@@ -280,15 +280,15 @@ namespace Texere
             }
         }
 
-        /// <summary>Takes a piece of a mesh: vertices, or indices. Both are valid until it returns.</summary>
-        /// <param name="vertices">Vertices, from the number <paramref name="first"/> on.</param>
-        /// <param name="indices">Indices, from the number <paramref name="first"/> on.</param>
-        /// <param name="first">The number of the first of them in the whole mesh.</param>
-        /// <param name="baseVertex">What to add to an index to get the number of a vertex.</param>
+        /// <summary>Takes a piece of a mesh: vertices, or indices. The spans are valid until it returns.</summary>
+        /// <param name="vertices">Vertices; empty in a piece of indices.</param>
+        /// <param name="indices">Indices; empty in a piece of vertices.</param>
+        /// <param name="first">The number of the first vertex or index of the piece in the whole mesh.</param>
+        /// <param name="baseVertex">With Topology.Indexed, what to add to an index to get the number of a vertex.</param>
         public delegate void Piece(
             ReadOnlySpan<Vertex> vertices, ReadOnlySpan<uint> indices, ulong first, ulong baseVertex);
 
-        /// <summary>Makes the mesh piece by piece, in bounded memory. What <paramref name="take"/> throws ends the call.</summary>
+        /// <summary>Makes the mesh piece by piece. An exception of <paramref name="take"/> ends the call.</summary>
         public void Stream(Piece take, Run run = null)
         {
             ExceptionDispatchInfo thrown = null;

@@ -15,37 +15,43 @@ namespace Texere
         const string __DllName = "texere_c";
 
         /// <summary>
-        ///  The share by which yarns may come short of touching and still count as touching, as a rule.
+        ///  The usual `accuracy` of `texere_check_new`: the share by which yarns may come short of touching
+        ///  and still count as touching.
         /// </summary>
         internal const double TEXERE_ACCURACY = 0.015;
         /// <summary>
-        ///  More yarn lies in a place than there is room for, or too many parts of yarns to measure them
-        ///  pair by pair. The value is the yarns' volume over the room.
+        ///  At a place there is more yarn than room, or so many parts of yarns that they can't be measured
+        ///  pair by pair. The value is the volume of the yarns over the room.
         /// </summary>
         internal const uint TEXERE_FAULT_CROWDED = 0;
         /// <summary>
-        ///  Two yarns pierce one another. The value is how near they come: 1 where they just touch.
+        ///  Two yarns pierce one another. The value is how near they come: 1 if they just touch, less if
+        ///  they pierce.
         /// </summary>
         internal const uint TEXERE_FAULT_PIERCES = 1;
         /// <summary>
-        ///  A bend is tighter than the tube is thick. The value is its radius in radii of the yarn.
+        ///  A bend is so tight that the tube folds into itself. The value is the radius of the bend over how
+        ///  far the yarn's section reaches into the bend; below 1 the tube folds.
         /// </summary>
         internal const uint TEXERE_FAULT_FOLDS = 2;
         /// <summary>
-        ///  A thread lies too close to the one before for crossing threads to pass. The value is their
-        ///  distance over the one that is needed. There is no one place.
+        ///  A thread lies so close to the thread before it that crossing threads can't pass between the two.
+        ///  The value is their distance over the distance that is needed. The fault has no single place.
         /// </summary>
         internal const uint TEXERE_FAULT_JAMS = 3;
         /// <summary>
-        ///  The cloth does not hang together. The value is the number of its pieces. There is no one place.
+        ///  The cloth does not hang together. The value is the number of its pieces. The fault has no single
+        ///  place.
         /// </summary>
         internal const uint TEXERE_FAULT_APART = 4;
         /// <summary>
-        ///  The mesh is wrung between two rings. The value is its width there in radii of the yarn.
+        ///  The mesh is wrung: narrowed because two neighbouring rings are turned against one another. The
+        ///  value is the width half way between the two, as a share of the width on the rings.
         /// </summary>
         internal const uint TEXERE_FAULT_WRUNG = 5;
         /// <summary>
-        ///  Triangles of the mesh face inwards. The value is how many; the place is that of the first.
+        ///  Triangles of the mesh face inwards. The value is how many; the place is that of the first
+        ///  triangle.
         /// </summary>
         internal const uint TEXERE_FAULT_INSIDE_OUT = 6;
         /// <summary>
@@ -53,7 +59,8 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_FAULT_MACHINE = 7;
         /// <summary>
-        ///  The yarns are where the structure places them: the design does not ask for more.
+        ///  The yarns are where the structure places them, because the design does not ask that they come to
+        ///  rest, or because `texere_cloth_placed` made the cloth.
         /// </summary>
         internal const uint TEXERE_PLACED = 0;
         /// <summary>
@@ -61,28 +68,32 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_AT_REST = 1;
         /// <summary>
-        ///  The yarns settled and are not at rest; `words` of the report says what is left.
+        ///  The yarns settled without coming to rest. `words` of the report is "not at rest", or "jammed,
+        ///  not at rest" if the yarns of a knit have no room.
         /// </summary>
         internal const uint TEXERE_NOT_AT_REST = 2;
         /// <summary>
-        ///  The yarns are where the structure places them, for they can't come to rest; `words` says why.
+        ///  The yarns are where the structure places them, because they can't come to rest. `words` of the
+        ///  report says why.
         /// </summary>
         internal const uint TEXERE_REFUSED = 3;
         /// <summary>
-        ///  The structure's own choice: loops of a knit reach the length that its gauge asks for, or are
-        ///  free.
+        ///  The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
+        ///  has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
+        ///  yarns has none, yarns keep their lengths.
         /// </summary>
         internal const uint TEXERE_LENGTH_USUAL = 0;
         /// <summary>
-        ///  No yarn is drawn through.
+        ///  Yarns keep their lengths, interval by interval, so that no yarn is drawn along its path.
         /// </summary>
         internal const uint TEXERE_LENGTH_HELD = 1;
         /// <summary>
-        ///  Yarns get `length` times their length, 0.5 to 2.
+        ///  Yarns get `length` times the length that they have at the start, 0.5 to 2.
         /// </summary>
         internal const uint TEXERE_LENGTH_GIVEN = 2;
         /// <summary>
-        ///  Yarns take the length that they need; `length` is a tension that draws them in, 0 to 0.1.
+        ///  Yarns take the length that their path needs. `length` is a tension that shortens them, 0 to 0.1:
+        ///  the share of its length by which an interval is shortened in a pass.
         /// </summary>
         internal const uint TEXERE_LENGTH_FREE = 3;
         /// <summary>
@@ -106,8 +117,9 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_NATIVE_VULKAN = 2;
         /// <summary>
-        ///  The number of the binary interface. A program compares it with `texere_abi` of the library
-        ///  that it has loaded: they are equal, or the program can't use that library.
+        ///  The number of the binary interface. A program compares this number of its header with what
+        ///  `texere_abi` of the loaded library returns. If the two differ, the program can't use that
+        ///  library.
         /// </summary>
         internal const uint TEXERE_ABI = 1;
         /// <summary>
@@ -115,24 +127,25 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_SECTION_CIRCLE = 0;
         /// <summary>
-        ///  An ellipse: `aspect`.
+        ///  An ellipse whose width over height is `aspect`.
         /// </summary>
         internal const uint TEXERE_SECTION_ELLIPSE = 1;
         /// <summary>
-        ///  Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
-        ///  middle, in half heights, -0.9 to 0.9.
+        ///  Two arcs that meet in two edges. The section has `aspect`; `form` is the height of the edges
+        ///  above the middle, in half heights, -0.9 to 0.9.
         /// </summary>
         internal const uint TEXERE_SECTION_LENTICULAR = 2;
         /// <summary>
-        ///  An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+        ///  An ellipse whose height at angle a is in proportion to |sin a|^`form` instead of |sin a|. The
+        ///  section has `aspect`; `form` is 0.1 to 4, and 1 is an ellipse.
         /// </summary>
         internal const uint TEXERE_SECTION_POWER_ELLIPSE = 3;
         /// <summary>
-        ///  Plies that are twisted together: `count` of them, 2 to 12.
+        ///  The outline of `count` round plies twisted together, 2 to 12.
         /// </summary>
         internal const uint TEXERE_SECTION_LOBED = 4;
         /// <summary>
-        ///  The outline in `corners`, 3 to 256 of them.
+        ///  The outline through `corners`: `count` corners, 3 to 256.
         /// </summary>
         internal const uint TEXERE_SECTION_POLYGON = 5;
         /// <summary>
@@ -152,27 +165,29 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_VIEW_FACE = 0;
         /// <summary>
-        ///  The whole cloth from above its lower edge, turned by `turn`.
+        ///  The whole cloth from above, with the eye on the side of the cloth's lower edge. `turn` turns the
+        ///  eye about the cloth's middle.
         /// </summary>
         internal const uint TEXERE_VIEW_OBLIQUE = 1;
         /// <summary>
-        ///  A stretch of `width_mm` round the point `at`, from above and aside.
+        ///  A part of the cloth, `width_mm` wide, round the point `at`, from above and aside.
         /// </summary>
         internal const uint TEXERE_VIEW_CLOSE_UP = 2;
         /// <summary>
-        ///  A cut across the ends, through the point `at`, `width_mm` of it.
+        ///  A cut across the ends, through the point `at`. The picture shows `width_mm` of it.
         /// </summary>
         internal const uint TEXERE_VIEW_CUT_WARP = 3;
         /// <summary>
-        ///  A cut across the picks, through the point `at`, `width_mm` of it.
+        ///  A cut across the picks, through the point `at`. The picture shows `width_mm` of it.
         /// </summary>
         internal const uint TEXERE_VIEW_CUT_WEFT = 4;
         /// <summary>
-        ///  From `eye` to `target`, with `field_of_view`.
+        ///  The view from `eye` to `target`, with `field_of_view`.
         /// </summary>
         internal const uint TEXERE_VIEW_EYE = 5;
         /// <summary>
-        ///  From `eye` to `target` with parallel lines of sight; the picture shows `height_mm`.
+        ///  The view in the direction from `eye` to `target`, with parallel lines of sight. The picture
+        ///  shows `height_mm` from its lower to its upper edge.
         /// </summary>
         internal const uint TEXERE_VIEW_PARALLEL = 6;
         /// <summary>
@@ -180,27 +195,28 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_BACKGROUND_GROUND = 0;
         /// <summary>
-        ///  The colour `color`.
+        ///  One colour, `color`.
         /// </summary>
         internal const uint TEXERE_BACKGROUND_COLOR = 1;
         /// <summary>
-        ///  Nothing: alpha says how much of each pixel is yarn.
+        ///  Nothing. Alpha says how much of each pixel shows yarn.
         /// </summary>
         internal const uint TEXERE_BACKGROUND_NOTHING = 2;
         /// <summary>
-        ///  Sections stand with their side level. Yarns that are too steep for that are carried along.
+        ///  Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
+        ///  anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
         /// </summary>
         internal const uint TEXERE_FRAME_UPRIGHT = 0;
         /// <summary>
-        ///  Sections are carried along the yarn without turning.
+        ///  Sections are carried along the yarn without turning about it.
         /// </summary>
         internal const uint TEXERE_FRAME_ROTATION_MINIMIZING = 1;
         /// <summary>
-        ///  Three indices a triangle, counted from the base vertex of their draw.
+        ///  Three indices for each triangle, counted from the base vertex of their draw.
         /// </summary>
         internal const uint TEXERE_TOPOLOGY_INDEXED = 0;
         /// <summary>
-        ///  One pattern of indices for all draws.
+        ///  One pattern of indices that all draws use, counted from the base vertex of each draw.
         /// </summary>
         internal const uint TEXERE_TOPOLOGY_SHARED = 1;
         /// <summary>
@@ -208,15 +224,15 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_TOPOLOGY_NONE = 2;
         /// <summary>
-        ///  As many control points as the bends of a yarn need.
+        ///  Each stitch has as many control points as the bends of its yarn need.
         /// </summary>
         internal const uint TEXERE_CELLS_ROUND = 0;
         /// <summary>
-        ///  Equally many control points for each stitch.
+        ///  All stitches have the same number of control points.
         /// </summary>
         internal const uint TEXERE_CELLS_EVEN = 1;
         /// <summary>
-        ///  The yarn of an empty guide.
+        ///  Stands in `threading` of a bar for a guide without a yarn.
         /// </summary>
         internal const uint TEXERE_NO_YARN = 4294967295;
         /// <summary>
@@ -228,15 +244,15 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_STITCH_PURL = 1;
         /// <summary>
-        ///  Front and back needle both knit, on two beds.
+        ///  Front and back needle both knit. This needs two beds.
         /// </summary>
         internal const uint TEXERE_STITCH_BOTH = 2;
         /// <summary>
-        ///  The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+        ///  The needle takes the yarn and keeps its loops. On two beds it is the front needle.
         /// </summary>
         internal const uint TEXERE_STITCH_TUCK = 3;
         /// <summary>
-        ///  The back needle tucks, on two beds.
+        ///  The back needle takes the yarn and keeps its loops. This needs two beds.
         /// </summary>
         internal const uint TEXERE_STITCH_BACK_TUCK = 4;
         /// <summary>
@@ -244,11 +260,13 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_STITCH_MISS = 5;
         /// <summary>
-        ///  The front needle knits, and its loop moves by `moved` needles, in front of the others.
+        ///  The front needle knits, and its loop then moves by `moved` needles, in front of other loops that
+        ///  move.
         /// </summary>
         internal const uint TEXERE_STITCH_MOVED = 6;
         /// <summary>
-        ///  The front needle knits, and its loop moves by `moved` needles, behind the others.
+        ///  The front needle knits, and its loop then moves by `moved` needles, behind other loops that
+        ///  move.
         /// </summary>
         internal const uint TEXERE_STITCH_MOVED_BEHIND = 7;
         /// <summary>
@@ -256,7 +274,7 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_SHAPE_ROUND = 0;
         /// <summary>
-        ///  One control point a crossing, and one before and after.
+        ///  A thread has one control point at each crossing, one before all of them and one after.
         /// </summary>
         internal const uint TEXERE_SHAPE_CROSSING = 1;
         /// <summary>
@@ -272,7 +290,8 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_RELIEF_SHRINK = 2;
         /// <summary>
-        ///  The stiffer set stays the straighter.
+        ///  Warp and weft share the crimp by stiffness, which is taken as the fourth power of the radius:
+        ///  the stiffer set stays straighter. `stiffness` of the threads does not count.
         /// </summary>
         internal const uint TEXERE_CRIMP_STIFFNESS = 0;
         /// <summary>
@@ -301,38 +320,38 @@ namespace Texere
 
 
         /// <summary>
-        ///  Checks a cloth: measures how near its yarns come to one another and how tightly they bend, looks
-        ///  for faults, and for single changes of the design that cure them. A mesh with `settings` is
-        ///  looked at, too; they may be null: `texere_settings_default` says what holds then. Yarns that
-        ///  come short of touching by more than the share `accuracy` pierce: TEXERE_ACCURACY is usual. `run`
-        ///  may be null.
+        ///  Checks a cloth: measures how near its yarns come to one another and how tightly they bend, and
+        ///  looks for faults and for single changes of the design that cure them. It also looks for faults
+        ///  of a mesh with `settings`, which may be null: then those of `texere_settings_default` apply. Two
+        ///  yarns pierce one another if they come short of touching by more than the share `accuracy`.
+        ///  TEXERE_ACCURACY is usual. `run` may be null.
         ///
-        ///  A cloth with faults is no failure of the call. It fails with TEXERE_ARGUMENT for settings out of
-        ///  range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED where `run`
-        ///  was cancelled.
+        ///  The call succeeds for a cloth with faults. It fails with TEXERE_ARGUMENT for settings out of
+        ///  range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED if `run` was
+        ///  cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_check_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_check_new(texere_cloth* cloth, texere_settings* settings, double accuracy, texere_run* run, texere_check** @out);
 
         /// <summary>
-        ///  Writes what a check has found. The caller has set `diagnosis-&gt;struct_size`.
+        ///  Writes the result of a check. The caller sets `diagnosis-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_check_diagnosis", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_check_diagnosis(texere_check* check, texere_diagnosis* diagnosis);
 
         /// <summary>
-        ///  Writes the fault of a number, from 0. The caller has set `fault-&gt;struct_size`.
+        ///  Writes fault `number`, counted from 0. The caller sets `fault-&gt;struct_size` before the call.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there are fewer.
+        ///  Fails with TEXERE_ARGUMENT for a number that is too high.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_check_fault", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_check_fault(texere_check* check, ulong number, texere_fault* fault);
 
         /// <summary>
-        ///  Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-        ///  until the check is freed. A warning is no fault.
+        ///  Lends warning `number`, counted from 0: writes its address to `words`. It is UTF-8 that ends
+        ///  with a zero byte, valid until the check is freed. Warnings do not count as faults.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there are fewer.
+        ///  Fails with TEXERE_ARGUMENT for a number that is too high.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_check_warning", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_check_warning(texere_check* check, ulong number, byte** words);
@@ -352,41 +371,44 @@ namespace Texere
         internal static extern texere_status texere_check_measures_json(texere_check* check, byte** json);
 
         /// <summary>
-        ///  Frees a check, or nothing where it is null.
+        ///  Frees a check. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_check_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_check_free(texere_check* check);
 
         /// <summary>
-        ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
+        ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
         ///  design asks for it. `run` may be null.
         ///
-        ///  Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
-        ///  placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
-        ///  made, and with TEXERE_CANCELLED where `run` was cancelled.
+        ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
+        ///  woven cloth that can't settle at all stay where the structure places them. The call fails with
+        ///  TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
+        ///  yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_rest", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_rest(texere_design* design, texere_device* device, texere_run* run, texere_cloth** @out);
 
         /// <summary>
-        ///  Makes the cloth of a design with its yarns as the structure places them, whatever it asks for.
+        ///  Makes the cloth of a design with its yarns where the structure places them, even if the design
+        ///  asks that they come to rest.
         ///
-        ///  Fails with TEXERE_DESIGN where the cloth can't be made.
+        ///  Fails with TEXERE_DESIGN if the cloth can't be made.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_placed", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_placed(texere_design* design, texere_cloth** @out);
 
         /// <summary>
-        ///  Writes how the yarns of a cloth came to rest. The caller has set `report-&gt;struct_size`.
+        ///  Writes whether the yarns of a cloth came to rest. The caller sets `report-&gt;struct_size` before
+        ///  the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_report", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_report(texere_cloth* cloth, texere_report* report);
 
         /// <summary>
-        ///  Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-        ///  until the cloth is freed.
+        ///  Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
+        ///  that ends with a zero byte, valid until the cloth is freed.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there are fewer.
+        ///  Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_warning", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_warning(texere_cloth* cloth, ulong number, byte** words);
@@ -398,24 +420,25 @@ namespace Texere
         internal static extern texere_status texere_cloth_yarns(texere_cloth* cloth, texere_yarns** @out);
 
         /// <summary>
-        ///  Frees a cloth, or nothing where it is null.
+        ///  Frees a cloth. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_cloth_free(texere_cloth* cloth);
 
         /// <summary>
-        ///  Reads the design in a file: `.wif`, `.toml`, `.k`.
+        ///  Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
+        ///  knitting machine (`.k`).
         ///
-        ///  Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it is no design;
-        ///  `texere_error_place` says where.
+        ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
+        ///  design; `texere_error_place` then says where it is at fault.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_read(byte* path, System.UIntPtr path_length, texere_design** @out);
 
         /// <summary>
-        ///  Reads a design that the caller has in memory. `name` says by its ending what kind of design it
-        ///  is; errors call it so. `files` gives the files that the design names; it may be null, and then
-        ///  there are none. `user` is handed to it.
+        ///  Reads a design that the caller has in memory. `name` stands for the file's name: its ending says
+        ///  what kind of design it is, and errors show it. `files` is called for each file that the design
+        ///  names, with `user` as its first argument. `files` may be null if the design names no files.
         ///
         ///  Fails as `texere_design_read` does.
         /// </summary>
@@ -423,68 +446,71 @@ namespace Texere
         internal static extern texere_status texere_design_read_memory(byte* name, System.UIntPtr name_length, byte* data, System.UIntPtr size, texere_design_read_memory_files_delegate files, void* user, texere_design** @out);
 
         /// <summary>
-        ///  Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
-        ///  file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
-        ///  is replaced once the new one is whole.
+        ///  Writes a design of woven cloth to a file that `texere_design_read` reads. The ending of `path`
+        ///  says which: `.toml` for texere's own design file, `.wif` for a WIF 1.1 draft, which leaves out
+        ///  what drafts don't have. An existing file of that name is replaced only once the new one is
+        ///  complete.
         ///
-        ///  Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+        ///  Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a knit, and with
+        ///  TEXERE_IO if the file can't be written.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_write(texere_design* design, byte* path, System.UIntPtr path_length);
 
         /// <summary>
-        ///  Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
+        ///  Frees a design. A null handle is allowed. Cloths that were made of the design stay valid.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_design_free(texere_design* design);
 
         /// <summary>
-        ///  Opens the device of a name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
+        ///  Opens a device by its name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
         ///  "wgpu" and so on. A `name_length` of 0 is "auto".
         ///
-        ///  Fails with TEXERE_DEVICE where there is none of that name, and with TEXERE_UNSUPPORTED where the
-        ///  library was built without it.
+        ///  Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
+        ///  library was built without the API that it needs.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_device_open", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_device_open(byte* name, System.UIntPtr name_length, texere_device** @out);
 
         /// <summary>
-        ///  Writes what a device is. The caller has set `info-&gt;struct_size`.
+        ///  Writes a description of a device. The caller sets `info-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_device_describe", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_device_describe(texere_device* device, texere_device_info* info);
 
         /// <summary>
-        ///  Frees a device, or nothing where it is null. What was made with it stays valid.
+        ///  Frees a device. A null handle is allowed. Handles that were made with the device stay valid.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_device_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_device_free(texere_device* device);
 
         /// <summary>
         ///  Draws a design on squared paper, in a `.png` file: the draft or the point paper of woven cloth,
-        ///  the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 for the cloth
-        ///  turned over sideways, else 0. A file of that name is replaced once the new one is whole.
+        ///  the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 to show the
+        ///  cloth turned over sideways, else 0. An existing file of that name is replaced only once the new
+        ///  one is complete.
         ///
-        ///  Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO where the
-        ///  file can't be written.
+        ///  Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO if the file
+        ///  can't be written.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_draft", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_draft(texere_design* design, uint back, byte* path, System.UIntPtr path_length);
 
         /// <summary>
-        ///  Sets whether the warp is up where an end and a pick cross; both count from 0. Both threads then
-        ///  lie as they are woven.
+        ///  Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
+        ///  threads then lie as the structure places them, even if they lay otherwise before.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there is no such crossing, where `up` is neither 0 nor 1, and
-        ///  in cloth that is not woven or that is known by its yarns alone.
+        ///  Fails with TEXERE_ARGUMENT if there is no such crossing, if `up` is neither 0 nor 1, and if the
+        ///  cloth has no weave: because it is a knit, or because only its yarns were given.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_lift", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_lift(texere_live* live, ulong end, ulong pick, uint up);
 
         /// <summary>
-        ///  Sets many lifts at once: those of `ends` ends from `first_end` on and `picks` picks from
-        ///  `first_pick` on. `up` has a byte for each crossing, 1 where the warp is up, else 0: pick after
-        ///  pick, and in each the ends in order.
+        ///  Sets many lifts at once: where `ends` ends from `first_end` on cross `picks` picks from
+        ///  `first_pick` on. `up` has a byte for each of these crossings, 1 if the warp is up, else 0. The
+        ///  bytes lie pick after pick, and those of a pick in the order of the ends.
         ///
         ///  Fails as `texere_live_set_lift` does.
         /// </summary>
@@ -492,7 +518,8 @@ namespace Texere
         internal static extern texere_status texere_live_set_drawdown(texere_live* live, ulong first_end, ulong ends, ulong first_pick, ulong picks, byte* up);
 
         /// <summary>
-        ///  Writes to `up` 1 if the warp is up where an end and a pick cross, else 0; both count from 0.
+        ///  Writes to `up` 1 if the warp is up where an end and a pick cross, else 0. Ends and picks count
+        ///  from 0.
         ///
         ///  Fails as `texere_live_set_lift` does.
         /// </summary>
@@ -500,17 +527,17 @@ namespace Texere
         internal static extern texere_status texere_live_lift(texere_live* live, ulong end, ulong pick, uint* up);
 
         /// <summary>
-        ///  Replaces a yarn, counted from 0: what it is made of and its control points, which may be more or
-        ///  fewer than before.
+        ///  Replaces a yarn, counted from 0: its properties and its control points. There may be more or
+        ///  fewer points than before.
         ///
-        ///  Fails with TEXERE_ARGUMENT for a yarn, material or section that there is not, and for points
+        ///  Fails with TEXERE_ARGUMENT if there is no such yarn, material or section, and for control points
         ///  that no yarn can have. The cloth then stays as it was.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_yarn", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_yarn(texere_live* live, ulong yarn, texere_yarn* what, texere_point* points, System.UIntPtr point_count);
 
         /// <summary>
-        ///  Gives a yarn, counted from 0, other control points, which may be more or fewer than before.
+        ///  Gives a yarn, counted from 0, other control points. There may be more or fewer than before.
         ///
         ///  Fails as `texere_live_set_yarn` does.
         /// </summary>
@@ -518,79 +545,84 @@ namespace Texere
         internal static extern texere_status texere_live_set_points(texere_live* live, ulong yarn, texere_point* points, System.UIntPtr point_count);
 
         /// <summary>
-        ///  Writes what a yarn is made of as it is now. Its control points are those of `texere_live_yarns`.
-        ///  The caller has set `what-&gt;struct_size`.
+        ///  Writes the properties of a yarn, counted from 0, as they are now. `texere_live_yarns` gives its
+        ///  control points. The caller sets `what-&gt;struct_size` before the call.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there is no such yarn.
+        ///  Fails with TEXERE_ARGUMENT if there is no such yarn.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_yarn", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_yarn(texere_live* live, ulong yarn, texere_yarn* what);
 
         /// <summary>
-        ///  Changes a material, counted from 0. A mesh holds no colours, so an update makes nothing again.
+        ///  Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
+        ///  again.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there is no such material, and for one that no yarn can have.
+        ///  Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
+        ///  have.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_material", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_material(texere_live* live, ulong number, texere_material* material);
 
         /// <summary>
-        ///  Writes a material as it is now, counted from 0. Its name ends with a zero byte and is valid
-        ///  until the next call of this function with this live cloth, or until that is freed.
+        ///  Writes a material, counted from 0, as it is now. Its name ends with a zero byte. The name is
+        ///  valid until the next call of this function with this live cloth, or until the live cloth is
+        ///  freed.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there is no such material.
+        ///  Fails with TEXERE_ARGUMENT if there is no such material.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_material", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_material(texere_live* live, ulong number, texere_material* material);
 
         /// <summary>
-        ///  Sets the tension of the splines of all yarns, from 0 to below 1. The whole mesh is made again.
+        ///  Sets the tension of the splines of all yarns, from 0 to below 1. The next update makes the whole
+        ///  mesh again.
         ///
-        ///  Fails with TEXERE_ARGUMENT for another tension.
+        ///  Fails with TEXERE_ARGUMENT for a tension outside these limits.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_tension", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_tension(texere_live* live, float tension);
 
         /// <summary>
         ///  Replaces the structure by that of a design, such as a knit with another stitch or a weave with
-        ///  other threads. Yarns lie as the structure places them. The tension of splines stays. Yarns that
-        ///  are the same in both are not made again.
+        ///  other threads. The yarns lie as the new structure places them. The tension of splines stays. The
+        ///  next update does not make yarns again that are the same in both structures.
         ///
-        ///  Fails with TEXERE_DESIGN where the yarns of the structure can't be made, and as
+        ///  Fails with TEXERE_DESIGN if the yarns of the structure can't be made, and as
         ///  `texere_live_of_cloth` does.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_structure", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_structure(texere_live* live, texere_design* design);
 
         /// <summary>
-        ///  Replaces all yarns. Yarns that are the same in both are not made again. The cloth is known by
-        ///  its yarns alone from then on: lifts can't be set.
+        ///  Replaces all yarns. The next update does not make yarns again that stay the same. From then on
+        ///  the live cloth has no weave, so its lifts can't be set.
         ///
-        ///  Fails with TEXERE_ARGUMENT for yarns of another tension, and as `texere_live_of_cloth` does.
+        ///  Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, and as
+        ///  `texere_live_of_cloth` does.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_yarns", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_yarns(texere_live* live, texere_yarns* yarns);
 
         /// <summary>
-        ///  Replaces all yarns by those of the same cloth at rest, and keeps the weave. Threads whose lifts
-        ///  are set later lie as they are woven, among those at rest.
+        ///  Replaces all yarns by those of the same cloth at rest, and keeps the weave. A thread whose lift
+        ///  is set later lies as the structure places it, among the yarns at rest.
         ///
-        ///  Fails with TEXERE_ARGUMENT for yarns of another tension, and where there are more or fewer yarns
-        ///  or sections than the cloth has.
+        ///  Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, for more or fewer yarns
+        ///  than the live cloth has, and for other sections.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_set_rest", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_set_rest(texere_live* live, texere_yarns* yarns);
 
         /// <summary>
-        ///  What went wrong in the last call of this thread that failed, with all its causes, in one line of
-        ///  UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
-        ///  call of this thread fails.
+        ///  What went wrong in the last call of this thread that failed, with all causes: UTF-8 that ends
+        ///  with a zero byte. The text is empty if no call of this thread has failed. It is valid until the
+        ///  next call of this thread fails.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_error_message", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern byte* texere_error_message();
 
         /// <summary>
-        ///  Where in a design's file the last call of this thread that failed has found the fault.
+        ///  Writes where the last failure of this thread lies: its place in a design's file.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `place`.
         /// </summary>
@@ -598,22 +630,23 @@ namespace Texere
         internal static extern texere_status texere_error_place(texere_place* place);
 
         /// <summary>
-        ///  Writes the finish of a design. The caller has set `finish-&gt;struct_size`.
+        ///  Writes the finish of a design. The caller sets `finish-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_finish", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_finish(texere_design* design, texere_finish* finish);
 
         /// <summary>
-        ///  Makes a design like another one with a finish of the caller's.
+        ///  Makes a copy of a design with the finish `finish`.
         ///
-        ///  Fails with TEXERE_ARGUMENT for a finish out of range, and for one that the structure does not
-        ///  have.
+        ///  Fails with TEXERE_ARGUMENT for a value out of range, and for a finish that the structure does
+        ///  not have, such as a stretch of a knit.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_finished", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_finished(texere_design* design, texere_finish* finish, texere_design** @out);
 
         /// <summary>
-        ///  The number of the binary interface of this library: `TEXERE_ABI` of its header.
+        ///  The number of the binary interface of the loaded library: TEXERE_ABI of the header that belongs
+        ///  to it.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_abi", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint texere_abi();
@@ -626,18 +659,18 @@ namespace Texere
         internal static extern byte* texere_version();
 
         /// <summary>
-        ///  Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
-        ///  `settings` may be null: `texere_settings_default` says what holds then.
+        ///  Makes a live cloth of a cloth, with its mesh on a device. If the cloth is woven, its lifts can
+        ///  be set. `settings` may be null, and then those of `texere_settings_default` apply.
         ///
-        ///  Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
-        ///  room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY if the mesh has no room
+        ///  on the device, and with TEXERE_UNSUPPORTED if the device can't keep a mesh.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_of_cloth", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_of_cloth(texere_cloth* cloth, texere_device* device, texere_settings* settings, texere_live** @out);
 
         /// <summary>
-        ///  Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
-        ///  `settings` may be null: `texere_settings_default` says what holds then.
+        ///  Makes a live cloth of yarns, with its mesh on a device. Yarns have no weave, so lifts can't be
+        ///  set. `settings` may be null, and then those of `texere_settings_default` apply.
         ///
         ///  Fails as `texere_live_of_cloth` does.
         /// </summary>
@@ -645,52 +678,31 @@ namespace Texere
         internal static extern texere_status texere_live_of_yarns(texere_yarns* yarns, texere_device* device, texere_settings* settings, texere_live** @out);
 
         /// <summary>
-        ///  Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-        ///  update makes the whole mesh. The caller has set `update-&gt;struct_size`.
+        ///  Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
+        ///  first update makes the whole mesh. `run` may be null. The caller sets `update-&gt;struct_size`
+        ///  before the call.
         ///
-        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-        ///  parts again.
+        ///  Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails, and with TEXERE_CANCELLED if
+        ///  `run` was cancelled. The next update then makes the same parts.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_update", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_update(texere_live* live, texere_update* update);
+        internal static extern texere_status texere_live_update(texere_live* live, texere_run* run, texere_update* update);
 
         /// <summary>
-        ///  Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
-        ///  room between yarns, too, in which yarns can become longer. The caller has set
-        ///  `counts-&gt;struct_size`.
+        ///  Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
+        ///  indices include the room between yarns, into which yarns can grow. The caller sets
+        ///  `counts-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_counts", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_counts(texere_live* live, texere_counts* counts);
 
         /// <summary>
-        ///  Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
-        ///  there are. What lies between them is room, and is not drawn. They are valid until the next
-        ///  update, or until the live cloth is freed.
+        ///  Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
+        ///  there are. Indices between two draws are room, and are not drawn. The draws are valid until the
+        ///  next update, or until the live cloth is freed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_draws", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_draws(texere_live* live, texere_draw** draws);
-
-        /// <summary>
-        ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
-        ///  between yarns holds is not said.
-        ///
-        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-        ///  `texere_live_counts` says, and where an edit has not been brought to the mesh by
-        ///  `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_mesh(texere_live* live, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
-
-        /// <summary>
-        ///  Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
-        ///  last update. Indices count from the base vertex of their draw, as in the whole mesh.
-        ///
-        ///  Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
-        ///  `index_count` is not what it says, and where an edit has not been brought to the mesh by
-        ///  `texere_live_update`.
-        /// </summary>
-        [DllImport(__DllName, EntryPoint = "texere_live_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern texere_status texere_live_read(texere_live* live, texere_change* change, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
 
         /// <summary>
         ///  Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
@@ -700,14 +712,36 @@ namespace Texere
         internal static extern texere_status texere_live_yarns(texere_live* live, texere_yarns** @out);
 
         /// <summary>
-        ///  Frees a live cloth, or nothing where it is null.
+        ///  Frees a live cloth. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_live_free(texere_live* live);
 
         /// <summary>
-        ///  Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
-        ///  air in the yarn: 0.909 is usual for cotton.
+        ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
+        ///  of the room between yarns are undefined.
+        ///
+        ///  Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
+        ///  says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
+        ///  TEXERE_CANCELLED if `run` was cancelled.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_mesh(texere_live* live, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Reads a range of the mesh of a live cloth into the caller's memory, such as a change of the last
+        ///  update. Indices count from the base vertex of their draw.
+        ///
+        ///  Fails with TEXERE_ARGUMENT if the range does not lie within the mesh, if `vertex_count` or
+        ///  `index_count` is not what the range says, and if `texere_live_update` has to be called first,
+        ///  after an edit for example.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_live_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_live_read(texere_live* live, texere_change* change, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
+
+        /// <summary>
+        ///  Writes the diameter, mm, of a yarn with the linear density `tex`, tex, and the density
+        ///  `density`, g/cm³. The density is that of the yarn with the air in it; 0.909 is usual for cotton.
         ///
         ///  Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
         /// </summary>
@@ -715,18 +749,18 @@ namespace Texere
         internal static extern texere_status texere_diameter(double tex, double density, double* diameter_mm);
 
         /// <summary>
-        ///  Writes the measures of a cloth. The caller has set `measures-&gt;struct_size`.
+        ///  Writes the measures of a cloth. The caller sets `measures-&gt;struct_size` before the call.
         ///
-        ///  Fails with TEXERE_DESIGN where they can't be taken.
+        ///  Fails with TEXERE_DESIGN if they can't be taken.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_measures", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_measures(texere_cloth* cloth, texere_measures* measures);
 
         /// <summary>
-        ///  Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
-        ///  `texere_cloth_measures` says.
+        ///  Writes the length of yarn of each material of a cloth, mm. `materials` of
+        ///  `texere_cloth_measures` says how many numbers that is.
         ///
-        ///  Fails with TEXERE_ARGUMENT where `count` is another number.
+        ///  Fails with TEXERE_ARGUMENT if `count` is another number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_lengths", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_lengths(texere_cloth* cloth, double* lengths, ulong count);
@@ -735,42 +769,43 @@ namespace Texere
         ///  Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
         ///  indices. `run` may be null.
         ///
-        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-        ///  `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-        ///  holds then is not said.
+        ///  Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_counts`
+        ///  says, and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the
+        ///  memory are undefined.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_mesh(texere_plan* plan, texere_run* run, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
 
         /// <summary>
-        ///  Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
-        ///  members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
-        ///  null. `texere_plan_counts` says how many vertices and indices there are; memory between values
-        ///  stays as it is.
+        ///  Makes the mesh of a plan in arrays that the caller chooses. Positions and normals go to arrays
+        ///  of their own, to members of the caller's structs, or one behind the other as in `texere_vertex`.
+        ///  `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
+        ///  between values stays as it is.
         ///
-        ///  Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
-        ///  indices one behind the other, are the fastest: the device writes there without a copy.
+        ///  It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
+        ///  with indices that lie side by side: the mesh is then not copied value by value.
         ///
-        ///  Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
-        ///  TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+        ///  Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
+        ///  and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are
+        ///  undefined.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_mesh_arrays", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_mesh_arrays(texere_plan* plan, texere_run* run, texere_mesh_arrays* arrays);
 
         /// <summary>
         ///  Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
-        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
         ///
         ///  Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
-        ///  TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
-        ///  none.
+        ///  TEXERE_CANCELLED if `run` was cancelled, and with TEXERE_UNSUPPORTED if the device can't make
+        ///  them.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_packed", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_packed(texere_plan* plan, texere_run* run, texere_view* packed);
 
         /// <summary>
         ///  Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
-        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+        ///  vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
         ///
         ///  Fails as `texere_plan_packed` does.
         /// </summary>
@@ -788,70 +823,75 @@ namespace Texere
         internal static extern texere_status texere_plan_trajectory(texere_plan* plan, texere_run* run, texere_view* rings);
 
         /// <summary>
-        ///  Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+        ///  Makes a picker of yarns. `settings` may be null, and then those of `texere_settings_default`
+        ///  apply.
         ///
-        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
-        ///  not suffice.
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY if memory does not
+        ///  suffice.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_picker_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_picker_new(texere_yarns* yarns, texere_settings* settings, texere_picker** @out);
 
         /// <summary>
-        ///  Writes what a ray hits first, from either side; of several at one distance the first along the
-        ///  yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+        ///  Writes which triangle a ray hits first, from either side. If several lie at the same distance,
+        ///  it is the first along the yarns. A ray whose direction is zero, or whose numbers are not finite,
+        ///  hits nothing.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_picker_pick", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_picker_pick(texere_picker* picker, texere_ray* ray, texere_hit* hit);
 
         /// <summary>
-        ///  Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
-        ///  `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
-        ///  picker of the cloth's yarns.
+        ///  Writes what a weaver or a knitter calls the place of a hit in a cloth, such as `end 3 at pick 4,
+        ///  cotton`. If the cloth is knitted by a program, the place in the program follows. The hit is one
+        ///  of a picker of the cloth's yarns.
         ///
         ///  `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
-        ///  has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
-        ///  null.
+        ///  has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
-        ///  above the length.
+        ///  Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+        ///  for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
+        ///  the length.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_place(texere_cloth* cloth, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
 
         /// <summary>
-        ///  Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+        ///  Writes what a ray hits first in a live cloth as it is now, with edits that no update has brought
+        ///  to the mesh yet.
         ///
-        ///  Fails with TEXERE_MEMORY where memory does not suffice.
+        ///  Fails with TEXERE_MEMORY if memory does not suffice.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_pick", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_pick(texere_live* live, texere_ray* ray, texere_hit* hit);
 
         /// <summary>
-        ///  Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
-        ///  `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
-        ///  is the yarn alone.
+        ///  Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
+        ///  pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
+        ///  writes only which yarn it is.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+        ///  Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+        ///  where the hit is.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_place(texere_live* live, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
 
         /// <summary>
-        ///  Frees a picker, or nothing where it is null.
+        ///  Frees a picker. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_picker_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_picker_free(texere_picker* picker);
 
         /// <summary>
         ///  Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
-        ///  samples each, with fibres, on the ground. The caller has set `picture-&gt;struct_size`.
+        ///  samples each, with fibres, on the ground. The caller sets `picture-&gt;struct_size` before the
+        ///  call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_picture_default", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_picture_default(texere_picture* picture);
 
         /// <summary>
-        ///  Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
-        ///  holds then.
+        ///  Plans the mesh of yarns on a device. `settings` may be null, and then those of
+        ///  `texere_settings_default` apply.
         ///
         ///  Fails with TEXERE_ARGUMENT for settings out of range.
         /// </summary>
@@ -859,13 +899,13 @@ namespace Texere
         internal static extern texere_status texere_plan_new(texere_yarns* yarns, texere_device* device, texere_settings* settings, texere_plan** @out);
 
         /// <summary>
-        ///  Writes the sizes of a plan's mesh. The caller has set `counts-&gt;struct_size`.
+        ///  Writes the sizes of a plan's mesh. The caller sets `counts-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_counts", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_counts(texere_plan* plan, texere_counts* counts);
 
         /// <summary>
-        ///  Lends the draws of a plan's mesh: `texere_plan_counts` says how many there are. They are valid
+        ///  Lends the draws of a plan's mesh. `texere_plan_counts` says how many there are. They are valid
         ///  until the plan is freed.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `draws`.
@@ -874,9 +914,9 @@ namespace Texere
         internal static extern texere_status texere_plan_draws(texere_plan* plan, texere_draw** draws);
 
         /// <summary>
-        ///  Lends where the rings of each yarn begin, and behind them how many rings there are in all:
-        ///  one number more than the plan has yarns, the first of which is 0. They are valid until the plan
-        ///  is freed. `count` gets how many numbers there are.
+        ///  Lends for each yarn the number of its first ring, and at the end how many rings there are in
+        ///  all. That is one number more than the plan has yarns. The numbers are valid until the plan is
+        ///  freed. `*count` becomes how many they are.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
         /// </summary>
@@ -885,15 +925,15 @@ namespace Texere
 
         /// <summary>
         ///  Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
-        ///  how many there are. The caller has set `chunk-&gt;struct_size`.
+        ///  how many there are. The caller sets `chunk-&gt;struct_size` before the call.
         ///
-        ///  Fails with TEXERE_ARGUMENT where there is no chunk of that number.
+        ///  Fails with TEXERE_ARGUMENT if there is no chunk of that number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_chunk", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_chunk(texere_plan* plan, ulong number, texere_chunk* chunk);
 
         /// <summary>
-        ///  Frees a plan, or nothing where it is null.
+        ///  Frees a plan. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_plan_free(texere_plan* plan);
@@ -902,19 +942,19 @@ namespace Texere
         ///  Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
         ///  `name_length` of 0 is "auto".
         ///
-        ///  Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
-        ///  built without pictures.
+        ///  Fails with TEXERE_DEVICE if there is no such device, and with TEXERE_UNSUPPORTED if the library
+        ///  was built without pictures.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_open", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_open(byte* name, System.UIntPtr name_length, texere_renderer** @out);
 
         /// <summary>
-        ///  Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
-        ///  null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
-        ///  null.
+        ///  Sends yarns to a renderer, which shows them from now on in place of those before. `settings` may
+        ///  be null, and then settings that suit a picture apply. Topology and caps of the settings have no
+        ///  effect. `run` may be null.
         ///
-        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
-        ///  cancelled. The renderer then shows nothing.
+        ///  Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED if `run` was
+        ///  cancelled. After a cancelled call the renderer shows nothing.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_show", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_show(texere_renderer* renderer, texere_yarns* yarns, texere_settings* settings, texere_run* run);
@@ -922,50 +962,53 @@ namespace Texere
         /// <summary>
         ///  Writes the box round the yarns that a renderer shows.
         ///
-        ///  Fails with TEXERE_ARGUMENT where it shows none.
+        ///  Fails with TEXERE_ARGUMENT if it shows none.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_extent", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_extent(texere_renderer* renderer, texere_extent* extent);
 
         /// <summary>
-        ///  Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-        ///  each pixel from the left, a byte each, sRGB; rows from the top. `pixels-&gt;stride` is the bytes
-        ///  from one row to the next, at least four times the width. Alpha is 255 unless the background is
-        ///  nothing; colours are not multiplied by it. `run` may be null.
+        ///  Makes a picture in the caller's memory. `pixels` has a row of bytes for each row of the picture,
+        ///  from the top. A row has four bytes for each pixel, from the left: red, green, blue (sRGB) and
+        ///  alpha. `pixels-&gt;stride` is the number of bytes from one row to the next, at least four times the
+        ///  width. Alpha is 255 unless the background is TEXERE_BACKGROUND_NOTHING. Colours are not
+        ///  multiplied by alpha. `run` may be null.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
-        ///  or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
-        ///  `run` was cancelled. The memory is then as it was.
+        ///  Fails with TEXERE_ARGUMENT if the renderer shows no yarns, for a picture that is out of range or
+        ///  larger than the device takes, and for memory that is too small. Fails with TEXERE_CANCELLED if
+        ///  `run` was cancelled. After a failure the memory is as it was.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_picture", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_picture(texere_renderer* renderer, texere_picture* picture, texere_run* run, texere_view* pixels);
 
         /// <summary>
-        ///  Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
-        ///  A file of that name is replaced once the new one is whole.
+        ///  Makes a picture in a `.png` file. The file has alpha if the background is
+        ///  TEXERE_BACKGROUND_NOTHING. `run` may be null. An existing file of that name is replaced only
+        ///  once the new one is complete.
         ///
-        ///  Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+        ///  Fails as `texere_renderer_picture` does, and with TEXERE_IO if the file can't be written.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_write(texere_renderer* renderer, texere_picture* picture, texere_run* run, byte* path, System.UIntPtr path_length);
 
         /// <summary>
         ///  Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
-        ///  edges. No yarn is seen outside the picture, and before the first one.
+        ///  edges. No yarn is seen outside the picture, before the first picture, and after a picture that
+        ///  was cancelled.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+        ///  Fails with TEXERE_ARGUMENT if the renderer shows no yarns.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_seen", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_renderer_seen(texere_renderer* renderer, float x, float y, texere_seen* seen);
 
         /// <summary>
-        ///  Frees a renderer, or nothing where it is null.
+        ///  Frees a renderer. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_renderer_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_renderer_free(texere_renderer* renderer);
 
         /// <summary>
-        ///  Makes a run.
+        ///  Makes a run, which is not cancelled.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `out`.
         /// </summary>
@@ -980,7 +1023,7 @@ namespace Texere
         internal static extern texere_status texere_run_cancel(texere_run* run);
 
         /// <summary>
-        ///  Writes how much of the call is done, from 0 to 1. Any thread may ask.
+        ///  Writes the share of the call that is done, from 0 to 1. Any thread may ask.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `share`.
         /// </summary>
@@ -988,179 +1031,183 @@ namespace Texere
         internal static extern texere_status texere_run_progress(texere_run* run, double* share);
 
         /// <summary>
-        ///  Frees a run, or nothing where it is null.
+        ///  Frees a run. A null handle is allowed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_run_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_run_free(texere_run* run);
 
         /// <summary>
-        ///  Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
-        ///  may be freed.
+        ///  Starts a session of a plan: sends the control points of its yarns to the device. `run` may be
+        ///  null. The plan may be freed afterwards.
         ///
-        ///  Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
-        ///  with TEXERE_CANCELLED where `run` was cancelled.
+        ///  Fails with TEXERE_UNSUPPORTED if the device has no buffers of OpenCL or Vulkan to lend, as with
+        ///  "cpu", and with TEXERE_CANCELLED if `run` was cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_session_new(texere_plan* plan, texere_run* run, texere_session** @out);
 
         /// <summary>
         ///  Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
-        ///  computes with its buffers. They are valid until the session is freed. The caller has set
-        ///  `native-&gt;struct_size`.
+        ///  computes with the session's buffers. The objects are valid until the session is freed. The
+        ///  caller sets `native-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_native", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_session_native(texere_session* session, texere_native* native);
 
         /// <summary>
-        ///  Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
-        ///  `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
-        ///  many there are. The call may return before the device is done: `texere_device_mesh` says what to
-        ///  wait for. The caller has set `mesh-&gt;struct_size`.
+        ///  Makes the mesh of a chunk on the device, and lends the buffers that hold it: vertices as
+        ///  `texere_vertex`, and indices that count from the chunk's first vertex. `texere_plan_chunk` says
+        ///  how many vertices and indices there are. The call may return before the device is done;
+        ///  `texere_device_mesh` says what to wait for. The caller sets `mesh-&gt;struct_size` before the call.
         ///
-        ///  The buffers belong to the library, and may be read only. They stay valid until the session is
-        ///  freed, and hold this chunk's mesh until the next chunk but one is made.
+        ///  The buffers belong to the library, and the program may only read them. They stay valid until the
+        ///  session is freed. They hold this chunk's mesh until two other chunks have been made.
         ///
-        ///  Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+        ///  Fails with TEXERE_ARGUMENT if the plan has no chunk of that number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_mesh", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_session_mesh(texere_session* session, ulong number, texere_device_mesh* mesh);
 
         /// <summary>
-        ///  Waits until the device has done all that the session has asked of it.
+        ///  Waits until the device has finished all work of the session.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_wait", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_session_wait(texere_session* session);
 
         /// <summary>
-        ///  Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+        ///  Waits for the mesh of a chunk that `texere_session_mesh` has made, and copies it to the caller's
+        ///  memory.
         ///
-        ///  Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
-        ///  says, and where the chunk was not made or is no longer there.
+        ///  Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_chunk`
+        ///  says, and if the chunk was not made or another chunk has taken its buffers.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_session_read(texere_session* session, ulong number, texere_vertex* vertices, ulong vertex_count, uint* indices, ulong index_count);
 
         /// <summary>
-        ///  Frees a session with its buffers, or nothing where it is null. No command of the program's that
-        ///  uses the buffers may be under way.
+        ///  Frees a session with its buffers. A null handle is allowed. None of the program's own commands
+        ///  may be using the buffers then.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_session_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_session_free(texere_session* session);
 
         /// <summary>
-        ///  Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
-        ///  their polygons have. The caller has set `settings-&gt;struct_size`.
+        ///  Writes the settings that suit yarns: the usual ones, with as many subdivisions as the yarns'
+        ///  twist needs, and with as many sides as a polygon among their sections has corners. The caller
+        ///  sets `settings-&gt;struct_size` before the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_settings_default", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_settings_default(texere_yarns* yarns, texere_settings* settings);
 
         /// <summary>
         ///  Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
-        ///  a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
-        ///  indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
-        ///  first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
-        ///  the calling thread.
+        ///  a time. Chunks come in order. All vertices of a chunk come before its indices. A piece of
+        ///  indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of indices that all
+        ///  draws use comes first, in a piece of chunk 0. `run` may be null. The callback runs on the
+        ///  calling thread, with `user` as its first argument.
         ///
-        ///  Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-        ///  0.
+        ///  Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+        ///  than 0.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_stream", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_stream(texere_plan* plan, texere_run* run, texere_plan_stream_callback_delegate callback, void* user);
 
         /// <summary>
-        ///  Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
-        ///  `texere_design_finished` says otherwise.
+        ///  Makes a design of a warp knit from the caller's arrays, which are copied. By default its yarns
+        ///  come to rest; `texere_design_finished` makes a design with another finish.
         ///
-        ///  Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-        ///  0, value and limit.
+        ///  Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+        ///  array, the element (counted from 0), the value and the limit.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_warp_knit", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_warp_knit(texere_warp_knit* knit, texere_design** @out);
 
         /// <summary>
-        ///  Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
-        ///  `texere_design_finished` says otherwise.
+        ///  Makes a design of a weft knit from the caller's arrays, which are copied. By default its yarns
+        ///  come to rest; `texere_design_finished` makes a design with another finish.
         ///
-        ///  Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-        ///  0, value and limit.
+        ///  Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+        ///  array, the element (counted from 0), the value and the limit.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_weft_knit", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_weft_knit(texere_weft_knit* knit, texere_design** @out);
 
         /// <summary>
-        ///  Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
-        ///  `texere_design_finished` says otherwise.
+        ///  Makes a design of woven cloth from the caller's arrays, which are copied. By default its yarns
+        ///  come to rest; `texere_design_finished` makes a design with another finish.
         ///
-        ///  Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
-        ///  0, value and limit.
+        ///  Fails with TEXERE_ARGUMENT for arrays from which no cloth can be made. The message names the
+        ///  array, the element (counted from 0), the value and the limit.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_woven", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_woven(texere_woven* woven, texere_design** @out);
 
         /// <summary>
         ///  Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-        ///  be null. A file of that name is replaced once the new one is whole.
+        ///  be null. An existing file of that name is replaced only once the new one is complete.
         ///
-        ///  Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+        ///  Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
         ///  cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_write(texere_plan* plan, texere_run* run, byte* path, System.UIntPtr path_length);
 
         /// <summary>
-        ///  Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
-        ///  `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
-        ///  handed to the callback, which runs on the calling thread.
+        ///  Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
+        ///  bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
+        ///  TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
+        ///  first argument.
         ///
-        ///  Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-        ///  0. What came before is no whole file.
+        ///  Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+        ///  than 0. The bytes that came before then are not a complete file.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_write_to(texere_plan* plan, texere_run* run, uint format, texere_plan_write_to_callback_delegate callback, void* user);
 
         /// <summary>
-        ///  Makes round and flattened yarns of the caller's arrays, which are copied.
+        ///  Makes yarns, round or flattened, of the caller's arrays, which are copied.
         ///
-        ///  Fails with TEXERE_ARGUMENT for arrays that no yarns can be: the message names yarn, point, value
-        ///  and limit.
+        ///  Fails with TEXERE_ARGUMENT for arrays from which no yarns can be made. The message names the
+        ///  yarn, the point, the value and the limit.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_new", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_new(texere_yarn_arrays* arrays, texere_yarns** @out);
 
         /// <summary>
-        ///  Reads yarns that were saved in a `.yarns` file.
+        ///  Reads yarns from a `.yarns` file.
         ///
-        ///  Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
-        ///  yarns.
+        ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no yarns.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_read(byte* path, System.UIntPtr path_length, texere_yarns** @out);
 
         /// <summary>
-        ///  Saves yarns in a `.yarns` file, to the bit.
+        ///  Saves yarns in a `.yarns` file, which keeps every bit of them.
         ///
-        ///  Fails with TEXERE_IO where the file can't be written.
+        ///  Fails with TEXERE_IO if the file can't be written.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_write(texere_yarns* yarns, byte* path, System.UIntPtr path_length);
 
         /// <summary>
-        ///  Writes how much yarns hold. The caller has set `counts-&gt;struct_size`.
+        ///  Writes how many yarns and control points there are. The caller sets `counts-&gt;struct_size` before
+        ///  the call.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_counts", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_counts(texere_yarns* yarns, texere_yarn_counts* counts);
 
         /// <summary>
-        ///  Copies offsets and control points to the caller's memory: `yarns + 1` offsets and `points`
-        ///  points, as `texere_yarns_counts` says.
+        ///  Copies to the caller's memory where the points of each yarn begin, as in `offsets` of
+        ///  `texere_yarn_arrays`, and the control points. With the numbers of `texere_yarns_counts` there
+        ///  are `yarns + 1` offsets and `points` points.
         ///
-        ///  Fails with TEXERE_ARGUMENT where `offset_count` or `point_count` is another number.
+        ///  Fails with TEXERE_ARGUMENT if `offset_count` or `point_count` is another number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_points", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_yarns_points(texere_yarns* yarns, ulong* offsets, ulong offset_count, texere_point* points, ulong point_count);
 
         /// <summary>
-        ///  Frees yarns, or nothing where they are null. Plans that were made of them stay valid.
+        ///  Frees yarns. A null handle is allowed. Plans that were made of the yarns stay valid.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_yarns_free", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void texere_yarns_free(texere_yarns* yarns);
@@ -1183,36 +1230,36 @@ namespace Texere
     internal unsafe partial struct texere_fault
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  A number that begins with TEXERE_FAULT; it says what `value` is.
+        ///  A constant whose name begins with TEXERE_FAULT; it says what `value` is.
         /// </summary>
         public uint kind;
         /// <summary>
-        ///  How bad it is. NaN where the kind has no value.
+        ///  How bad the fault is, as its kind says. NaN if the kind has no value.
         /// </summary>
         public double value;
         /// <summary>
-        ///  Where it is, mm. NaN where it has no one place.
+        ///  Where the fault is, mm. NaN if it has no single place.
         /// </summary>
         public fixed double position[3];
         /// <summary>
-        ///  The fault in words, with the threads that it is of: UTF-8 that ends with a zero byte, valid
+        ///  The fault in words, with the names of its threads: UTF-8 that ends with a zero byte, valid
         ///  until the check is freed.
         /// </summary>
         public byte* words;
     }
 
     /// <summary>
-    ///  What a check has found.
+    ///  The result of a check.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_diagnosis
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1225,28 +1272,31 @@ namespace Texere
         /// </summary>
         public byte* words;
         /// <summary>
-        ///  Contacts that are nearer than this pierce.
+        ///  The clearance below which two yarns count as piercing one another.
         /// </summary>
         public double touching;
         /// <summary>
-        ///  How near yarns come to one another at the least: 1 where they just touch. Infinite where
-        ///  none come near; NaN where all places are crowded.
+        ///  The least clearance, which says how near yarns come to one another: 1 if they just touch,
+        ///  less if they pierce. Infinite if no yarns come near one another; NaN if all places where
+        ///  they do are too crowded to be measured.
         /// </summary>
         public double clearance;
         /// <summary>
-        ///  How many places there are where two yarns come near one another.
+        ///  How many contacts there are: places where two yarns come near one another.
         /// </summary>
         public ulong contacts;
         /// <summary>
-        ///  How many of the contacts are nearer than 1 by more than 0.001.
+        ///  How many contacts have a clearance below 1 by more than 0.001.
         /// </summary>
         public ulong below_one;
         /// <summary>
-        ///  The radius of the tightest bend in radii of the yarn. Infinite where all yarns are straight.
+        ///  The radius of the tightest bend over how far the yarn's section reaches into it, which is
+        ///  the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
         /// </summary>
         public double bend;
         /// <summary>
-        ///  The least width of a tube of the mesh half way between two rings, in radii of the yarn.
+        ///  The least width of a tube of the mesh half way between two rings, as a share of the width on
+        ///  the rings.
         /// </summary>
         public double width;
         /// <summary>
@@ -1254,17 +1304,17 @@ namespace Texere
         /// </summary>
         public ulong inwards;
         /// <summary>
-        ///  How many faults `texere_check_fault` gives: 100 of each kind at most.
+        ///  How many faults `texere_check_fault` writes. At most 100 of a kind are listed.
         /// </summary>
         public ulong faults;
         /// <summary>
-        ///  How many warnings `texere_check_warning` gives.
+        ///  How many warnings `texere_check_warning` lends.
         /// </summary>
         public ulong warnings;
     }
 
     /// <summary>
-    ///  The cloth of a design: its yarns, and how they came to rest.
+    ///  The cloth of a design: its yarns, and whether they came to rest.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_cloth
@@ -1272,13 +1322,13 @@ namespace Texere
     }
 
     /// <summary>
-    ///  How the yarns of a cloth came to rest.
+    ///  Whether the yarns of a cloth came to rest.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_report
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1290,14 +1340,14 @@ namespace Texere
         /// </summary>
         public byte* words;
         /// <summary>
-        ///  How many warnings `texere_cloth_warning` gives.
+        ///  How many warnings the cloth has: `texere_cloth_warning` lends them.
         /// </summary>
         public ulong warnings;
     }
 
     /// <summary>
-    ///  A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
-    ///  structure by arrays.
+    ///  A design: read from a WIF draft, a design file or a program of a knitting machine, or made from
+    ///  the caller's arrays.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_design
@@ -1313,25 +1363,26 @@ namespace Texere
     }
 
     /// <summary>
-    ///  What a device is. Strings end with a zero byte and are valid until the device is freed.
+    ///  A description of a device. Its strings end with a zero byte and are valid until the device is
+    ///  freed.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_device_info
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 if yarns can come to rest on it, else 0.
+        ///  1 if yarns of all structures can come to rest on it, else 0.
         /// </summary>
         public uint settles;
         /// <summary>
-        ///  The name that opens it, such as "cpu" or "opencl:0".
+        ///  The name that opens the device, such as "cpu" or "opencl:0".
         /// </summary>
         public byte* name;
         /// <summary>
-        ///  The device as its maker calls it.
+        ///  The maker's name of the device.
         /// </summary>
         public byte* device;
         /// <summary>
@@ -1339,27 +1390,27 @@ namespace Texere
         /// </summary>
         public byte* driver;
         /// <summary>
-        ///  Bytes of memory that it has; 0 where it does not say so.
+        ///  How much memory the device has, bytes; 0 if it is not known.
         /// </summary>
         public ulong memory_bytes;
     }
 
     /// <summary>
-    ///  What a yarn is made of, apart from its control points.
+    ///  Properties of a yarn apart from its control points.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_yarn
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  Its material, from 0.
+        ///  The number of its material, counted from 0.
         /// </summary>
         public uint material;
         /// <summary>
-        ///  Its section, from 0.
+        ///  The number of its section, counted from 0.
         /// </summary>
         public uint section;
         /// <summary>
@@ -1367,7 +1418,7 @@ namespace Texere
         /// </summary>
         public uint closed;
         /// <summary>
-        ///  Its twist, radians a mm; positive is Z twist.
+        ///  Its twist, radians per mm; positive is Z twist.
         /// </summary>
         public float twist;
     }
@@ -1379,16 +1430,16 @@ namespace Texere
     internal unsafe partial struct texere_place
     {
         /// <summary>
-        ///  The file's name, UTF-8 that ends with a zero byte; null where the error has no place. It is
-        ///  valid until the next call of this thread fails.
+        ///  The file's name, UTF-8 that ends with a zero byte; null if the error has no place. The name
+        ///  is valid until the next call of this thread fails.
         /// </summary>
         public byte* file;
         /// <summary>
-        ///  The line, from 1; 0 where it is not known.
+        ///  The line, counted from 1; 0 if it is not known.
         /// </summary>
         public ulong line;
         /// <summary>
-        ///  The column, in letters from 1; 0 where it is not known.
+        ///  The column, in letters counted from 1; 0 if it is not known.
         /// </summary>
         public ulong column;
     }
@@ -1400,7 +1451,7 @@ namespace Texere
     internal unsafe partial struct texere_finish
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1408,15 +1459,16 @@ namespace Texere
         /// </summary>
         public uint settle;
         /// <summary>
-        ///  Of knits: a number that begins with TEXERE_LENGTH.
+        ///  Of knits: a constant whose name begins with TEXERE_LENGTH.
         /// </summary>
         public uint length_kind;
         /// <summary>
-        ///  What the kind of length says.
+        ///  A number whose meaning the constant in `length_kind` says.
         /// </summary>
         public float length;
         /// <summary>
-        ///  Of knits: distance of two plates that press the cloth, 0.001 to 1000 mm; 0: no plates.
+        ///  Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+        ///  0: no plates.
         /// </summary>
         public float press_mm;
         /// <summary>
@@ -1432,27 +1484,28 @@ namespace Texere
         /// </summary>
         public float calender;
         /// <summary>
-        ///  A number that begins with TEXERE_STRETCH.
+        ///  A constant whose name begins with TEXERE_STRETCH.
         /// </summary>
         public uint stretch;
         /// <summary>
-        ///  The most passes of either form of a knit, 1 to 1000000.
+        ///  Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
         /// </summary>
         public uint passes;
         /// <summary>
-        ///  How many times as long stretched cloth becomes, 0.5 to 2.
+        ///  The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
         /// </summary>
         public double stretch_by;
     }
 
     /// <summary>
-    ///  Objects that a session works with, as numbers: cast each to the type of its interface.
+    ///  The objects of OpenCL or Vulkan that a session works with, as numbers. A program casts each to
+    ///  the type that its description names.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_native
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1464,7 +1517,7 @@ namespace Texere
         /// </summary>
         public ulong instance;
         /// <summary>
-        ///  The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+        ///  The `VkPhysicalDevice`; 0 with OpenCL, where the command queue knows its device.
         /// </summary>
         public ulong physical_device;
         /// <summary>
@@ -1492,15 +1545,15 @@ namespace Texere
     internal unsafe partial struct texere_device_buffer
     {
         /// <summary>
-        ///  The `cl_mem` or `VkBuffer`; 0 where there is none.
+        ///  The `cl_mem` or `VkBuffer`; 0 if there are no values.
         /// </summary>
         public ulong buffer;
         /// <summary>
-        ///  Where the values begin, bytes.
+        ///  Where in the buffer the values begin, bytes.
         /// </summary>
         public ulong offset;
         /// <summary>
-        ///  How many bytes the values have.
+        ///  Size of all values, bytes.
         /// </summary>
         public ulong size;
     }
@@ -1508,20 +1561,21 @@ namespace Texere
     /// <summary>
     ///  The mesh of a chunk on its device.
     ///
-    ///  With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
-    ///  that reads them waits for it.
+    ///  With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers. A command of
+    ///  the program that reads the buffers has to wait for that event.
     ///
-    ///  With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
-    ///  queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
-    ///  call `texere_session_wait` first. No other thread may call the library with the same device
-    ///  while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
-    ///  the source of a transfer, indices as an index or storage buffer or as that source.
+    ///  With Vulkan, the commands that write the buffers have been submitted to the queue when the
+    ///  buffers are lent. A command on that queue needs a memory barrier from the writes of compute
+    ///  shaders to its own reads. Before it uses another queue, a program calls `texere_session_wait`.
+    ///  While the program submits to the queue, no other thread may call the library with the same
+    ///  device. The buffer of vertices may be used as a vertex buffer, a storage buffer or the source of
+    ///  a transfer; that of indices as an index buffer, a storage buffer or the source of a transfer.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_device_mesh
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1543,11 +1597,11 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
-    ///  call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+    ///  A cloth that is being edited, with its whole mesh on a device. One thread at a time may use it:
+    ///  a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
     ///
-    ///  An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
-    ///  brings it to the mesh. To undo an edit, set the old value again.
+    ///  `texere_live_yarns` and `texere_live_pick` see an edit at once. `texere_live_update` brings
+    ///  edits to the mesh. To undo an edit, set the old value again.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_live
@@ -1555,14 +1609,14 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A stretch of vertices and indices that an update has made again. Both count from the start of
+    ///  A range of vertices and a range of indices that an update has made again. Both are numbered in
     ///  the whole mesh.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_change
     {
         /// <summary>
-        ///  The first vertex.
+        ///  The number of the first vertex.
         /// </summary>
         public ulong first_vertex;
         /// <summary>
@@ -1570,43 +1624,44 @@ namespace Texere
         /// </summary>
         public ulong vertex_count;
         /// <summary>
-        ///  The first index.
+        ///  The number of the first index.
         /// </summary>
         public ulong first_index;
         /// <summary>
-        ///  How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+        ///  How many indices there are: 0 unless the topology is TEXERE_TOPOLOGY_INDEXED.
         /// </summary>
         public ulong index_count;
     }
 
     /// <summary>
-    ///  What an update has made again.
+    ///  The parts of the mesh that an update has made again.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_update
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-        ///  and places of everything may be others. Else 0.
+        ///  1 if the whole mesh was begun: in the first update, and for example after an edit by which a
+        ///  yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+        ///  numbers. Else 0.
         /// </summary>
         public uint anew;
         /// <summary>
-        ///  The stretches that were made again, valid until the next update of this live cloth, or until
-        ///  it is freed.
+        ///  The ranges that were made again. They are valid until the next update of this live cloth, or
+        ///  until it is freed.
         /// </summary>
         public texere_change* changes;
         /// <summary>
-        ///  How many there are.
+        ///  How many changes there are.
         /// </summary>
         public ulong change_count;
     }
 
     /// <summary>
-    ///  What yarns are made of.
+    ///  A material of yarns.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_material
@@ -1616,15 +1671,16 @@ namespace Texere
         /// </summary>
         public byte* name;
         /// <summary>
-        ///  Bytes of the name.
+        ///  Length of the name, bytes.
         /// </summary>
         public System.UIntPtr name_length;
         /// <summary>
-        ///  Linear density, tex; 0 where it is not known.
+        ///  Linear density, tex; 0 if it is not known.
         /// </summary>
         public float tex;
         /// <summary>
-        ///  Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+        ///  Length of the fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show
+        ///  them.
         /// </summary>
         public float hairiness;
         /// <summary>
@@ -1638,17 +1694,17 @@ namespace Texere
     }
 
     /// <summary>
-    ///  The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+    ///  The cross-section of yarns. Every shape except a polygon has the area of the round yarn.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_section
     {
         /// <summary>
-        ///  A number that begins with TEXERE_SECTION.
+        ///  A constant whose name begins with TEXERE_SECTION.
         /// </summary>
         public uint shape;
         /// <summary>
-        ///  How many plies or corners.
+        ///  How many plies of TEXERE_SECTION_LOBED, or corners of TEXERE_SECTION_POLYGON.
         /// </summary>
         public uint count;
         /// <summary>
@@ -1656,24 +1712,24 @@ namespace Texere
         /// </summary>
         public float aspect;
         /// <summary>
-        ///  What the shape says.
+        ///  A number whose meaning the constant of the shape says.
         /// </summary>
         public float form;
         /// <summary>
-        ///  Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
-        ///  has two numbers a corner.
+        ///  The corners of a polygon, counter-clockwise: for each corner its x and its y, in radii of
+        ///  the yarn.
         /// </summary>
         public float* corners;
     }
 
     /// <summary>
-    ///  Materials and sections that yarns refer to by their number, from 0.
+    ///  Materials and sections. Yarns refer to them by their number, counted from 0.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_looks
     {
         /// <summary>
-        ///  Materials. Null and 0: undyed yarn.
+        ///  The materials. Null with a `material_count` of 0: one material, undyed yarn.
         /// </summary>
         public texere_material* materials;
         /// <summary>
@@ -1681,7 +1737,7 @@ namespace Texere
         /// </summary>
         public ulong material_count;
         /// <summary>
-        ///  Sections. Null and 0: a circle.
+        ///  The sections. Null with a `section_count` of 0: one section, a circle.
         /// </summary>
         public texere_section* sections;
         /// <summary>
@@ -1691,13 +1747,13 @@ namespace Texere
     }
 
     /// <summary>
-    ///  Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+    ///  Measures of a cloth. A measure that the cloth does not have, or that can't be known, is NaN.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_measures
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1717,15 +1773,15 @@ namespace Texere
         /// </summary>
         public ulong loops;
         /// <summary>
-        ///  Width of the cloth, mm.
+        ///  Width of the cloth, along the weft or the courses, mm.
         /// </summary>
         public double width;
         /// <summary>
-        ///  Height of the cloth, mm.
+        ///  Height of the cloth, along the warp or the wales, mm.
         /// </summary>
         public double height;
         /// <summary>
-        ///  Thickness without load, mm.
+        ///  Thickness of the cloth without load, mm.
         /// </summary>
         public double thickness;
         /// <summary>
@@ -1741,7 +1797,7 @@ namespace Texere
         /// </summary>
         public double warp_crimp;
         /// <summary>
-        ///  Crimp of the weft.
+        ///  Crimp of the weft, in the same way.
         /// </summary>
         public double weft_crimp;
         /// <summary>
@@ -1749,37 +1805,39 @@ namespace Texere
         /// </summary>
         public double warp_cover;
         /// <summary>
-        ///  The share of the cloth's length that picks cover.
+        ///  The share of the cloth's height that picks cover, from 0 to 1. NaN of a knit.
         /// </summary>
         public double weft_cover;
         /// <summary>
-        ///  The share of the cloth that is covered.
+        ///  The share of the cloth's area that ends and picks cover together, from 0 to 1. NaN of a
+        ///  knit.
         /// </summary>
         public double cover;
         /// <summary>
-        ///  Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
-        ///  of a knit, and unless every material that is used has a tex.
+        ///  Peirce's cover factor of the warp: ends per inch over the square root of the cotton count.
+        ///  NaN of a knit, and unless every material that is used has a tex.
         /// </summary>
         public double warp_cover_factor;
         /// <summary>
-        ///  Peirce's cover factor of the weft.
+        ///  Peirce's cover factor of the weft, in the same way.
         /// </summary>
         public double weft_cover_factor;
         /// <summary>
-        ///  Peirce's cover factor of the cloth.
+        ///  Peirce's cover factor of the cloth, K1 + K2 - K1 K2 / 28, where K1 and K2 are the factors of
+        ///  warp and weft.
         /// </summary>
         public double cover_factor;
         /// <summary>
-        ///  Length of yarn in a loop, mm. NaN of woven cloth.
+        ///  Mean length of yarn in a loop, mm. NaN of woven cloth.
         /// </summary>
         public double loop_length;
         /// <summary>
-        ///  Loops to the square centimetre. NaN of woven cloth.
+        ///  Loops per square centimetre. NaN of woven cloth.
         /// </summary>
         public double loops_per_cm2;
         /// <summary>
-        ///  The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
-        ///  are used have one and the same tex.
+        ///  Tightness factor: the square root of the tex over the loop length in cm. NaN of woven cloth,
+        ///  and unless all yarns that are used have the same tex.
         /// </summary>
         public double tightness;
     }
@@ -1795,20 +1853,20 @@ namespace Texere
         /// </summary>
         public fixed float position[3];
         /// <summary>
-        ///  Unit normal, out of the yarn.
+        ///  Unit normal. It points out of the yarn.
         /// </summary>
         public fixed float normal[3];
     }
 
     /// <summary>
-    ///  Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
-    ///  overlap.
+    ///  Where in the caller's memory a mesh is written: arrays of its own, or members of the caller's
+    ///  structs. No two values may overlap.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_mesh_arrays
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1820,28 +1878,32 @@ namespace Texere
         /// </summary>
         public texere_view positions;
         /// <summary>
-        ///  Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+        ///  Unit normals, which point out of the yarn: three `float` for each vertex. With null `data`
+        ///  they are left out.
         /// </summary>
         public texere_view normals;
         /// <summary>
-        ///  Indices, a `uint32_t` each. Null `data`: left out.
+        ///  Indices, a `uint32_t` each. With null `data` they are left out.
         /// </summary>
         public texere_view indices;
     }
 
     /// <summary>
-    ///  A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+    ///  A vertex in 12 bytes, half the size of `texere_vertex`. docs/CONVENTIONS.md says how it is
+    ///  unpacked.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_packed_vertex
     {
         /// <summary>
-        ///  The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
-        ///  these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+        ///  The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
+        ///  bits of each coordinate are kept. The two words are one number of 64 bits, the first word
+        ///  its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
         /// </summary>
         public fixed uint position[2];
         /// <summary>
-        ///  The normal on an octahedron, in steps of 1/32767.
+        ///  The unit normal, mapped to the octahedron and from there to a square: two coordinates from
+        ///  -1 to 1, in steps of 1/32767.
         /// </summary>
         public fixed short normal[2];
     }
@@ -1853,11 +1915,12 @@ namespace Texere
     internal unsafe partial struct texere_attribute
     {
         /// <summary>
-        ///  The yarn, from 0.
+        ///  The yarn, counted from 0.
         /// </summary>
         public uint yarn;
         /// <summary>
-        ///  The angle round the section from its first corner, radians. It turns with the twist.
+        ///  The angle round the section from its first corner, radians. The first corner turns with the
+        ///  yarn's twist.
         /// </summary>
         public float angle;
         /// <summary>
@@ -1865,7 +1928,7 @@ namespace Texere
         /// </summary>
         public float along;
         /// <summary>
-        ///  The unit tangent of the yarn there.
+        ///  The unit tangent of the yarn at that ring.
         /// </summary>
         public fixed float tangent[3];
     }
@@ -1889,7 +1952,8 @@ namespace Texere
         /// </summary>
         public fixed float tangent[3];
         /// <summary>
-        ///  Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+        ///  Turn of the section about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in 1/2^32 of
+        ///  a full turn.
         /// </summary>
         public uint roll;
         /// <summary>
@@ -1905,13 +1969,14 @@ namespace Texere
         /// </summary>
         public float height_growth;
         /// <summary>
-        ///  Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+        ///  Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
+        ///  1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
         /// </summary>
         public uint lean;
     }
 
     /// <summary>
-    ///  Says what a ray hits first of the mesh of yarns, without the mesh.
+    ///  Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_picker
@@ -1945,31 +2010,33 @@ namespace Texere
         /// </summary>
         public uint found;
         /// <summary>
-        ///  The yarn, from 0.
+        ///  The yarn, counted from 0.
         /// </summary>
         public uint yarn;
         /// <summary>
-        ///  The ring before the triangle, from the start of the yarn.
+        ///  The ring before the triangle that is hit, counted from 0 at the start of the yarn.
         /// </summary>
         public uint ring;
         /// <summary>
-        ///  The corner of the section before the triangle, from 0; 0 on a cap.
+        ///  The corner of the section before the triangle, counted from 0; 0 on a cap.
         /// </summary>
         public uint side;
         /// <summary>
-        ///  A number that begins with TEXERE_CAP.
+        ///  A constant whose name begins with TEXERE_CAP.
         /// </summary>
         public uint cap;
         /// <summary>
-        ///  The control interval of the yarn, from 0: that between this control point and the next.
+        ///  The interval of the yarn, counted from 0: interval n lies between control points n and n +
+        ///  1.
         /// </summary>
         public uint interval;
         /// <summary>
-        ///  How far along the interval, from 0 to 1.
+        ///  Position along the interval, from 0 to 1.
         /// </summary>
         public double t;
         /// <summary>
-        ///  Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+        ///  Distance from the start of the ray, in lengths of its direction: in mm if the direction has
+        ///  length 1.
         /// </summary>
         public double distance;
         /// <summary>
@@ -1985,7 +2052,7 @@ namespace Texere
     internal unsafe partial struct texere_picture
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -1997,20 +2064,21 @@ namespace Texere
         /// </summary>
         public uint height;
         /// <summary>
-        ///  Pixels that are drawn for each pixel of the picture, each way, from 1; each of them has four
-        ///  samples.
+        ///  How many pixels are drawn for each pixel of the picture, in each direction, 1 or more. Each
+        ///  pixel that is drawn has four samples.
         /// </summary>
         public uint supersampling;
         /// <summary>
-        ///  1 if fibres that stand off yarns are drawn, else 0.
+        ///  1 if fibres that stand off yarns are drawn, else 0. Cuts never show them, nor do pictures in
+        ///  which threads are narrower than four pixels.
         /// </summary>
         public uint hairs;
         /// <summary>
-        ///  A number that begins with TEXERE_BACKGROUND.
+        ///  A constant whose name begins with TEXERE_BACKGROUND.
         /// </summary>
         public uint background;
         /// <summary>
-        ///  A colour of the background, sRGB.
+        ///  The colour of the background with TEXERE_BACKGROUND_COLOR, sRGB.
         /// </summary>
         public fixed byte color[3];
         /// <summary>
@@ -2018,7 +2086,7 @@ namespace Texere
         /// </summary>
         public byte reserved;
         /// <summary>
-        ///  A number that begins with TEXERE_VIEW.
+        ///  A constant whose name begins with TEXERE_VIEW.
         /// </summary>
         public uint view;
         /// <summary>
@@ -2026,35 +2094,38 @@ namespace Texere
         /// </summary>
         public uint turned_over;
         /// <summary>
-        ///  Turn about the cloth's middle, radians, counter-clockwise as seen from above.
+        ///  With TEXERE_VIEW_OBLIQUE: turn of the eye about the cloth's middle, radians,
+        ///  counter-clockwise as seen from above.
         /// </summary>
         public float turn;
         /// <summary>
-        ///  A point of the cloth, x and y, mm.
+        ///  With TEXERE_VIEW_CLOSE_UP and cuts: a point of the cloth, x and y, mm.
         /// </summary>
         public fixed float at[2];
         /// <summary>
-        ///  What the picture's width shows, mm.
+        ///  With TEXERE_VIEW_CLOSE_UP and cuts: how much of the cloth the picture's width shows, mm.
         /// </summary>
         public float width_mm;
         /// <summary>
-        ///  The eye, mm.
+        ///  With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the eye, mm.
         /// </summary>
         public fixed float eye[3];
         /// <summary>
-        ///  The point in the middle of the picture, mm.
+        ///  With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the point in the middle of the picture, mm.
         /// </summary>
         public fixed float target[3];
         /// <summary>
-        ///  What is up in the picture, of any length.
+        ///  With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the direction that is up in the picture, of
+        ///  any length.
         /// </summary>
         public fixed float up[3];
         /// <summary>
-        ///  From the picture's lower to its upper edge, radians, 0.0001 to 3.1.
+        ///  With TEXERE_VIEW_EYE: the angle from the picture's lower to its upper edge, radians, 0.0001
+        ///  to 3.1.
         /// </summary>
         public float field_of_view;
         /// <summary>
-        ///  What the picture's height shows, mm.
+        ///  With TEXERE_VIEW_PARALLEL: how much the picture's height shows, mm.
         /// </summary>
         public float height_mm;
     }
@@ -2082,24 +2153,26 @@ namespace Texere
     internal unsafe partial struct texere_seen
     {
         /// <summary>
-        ///  The place on the yarn's surface, mm; how far it is from the eye follows.
+        ///  The place on the yarn's surface, mm.
         /// </summary>
         public fixed double position[3];
         /// <summary>
-        ///  The yarn, from 0.
+        ///  The yarn, counted from 0.
         /// </summary>
         public uint yarn;
         /// <summary>
-        ///  1 where a yarn is seen, else 0.
+        ///  1 if a yarn is seen, else 0.
         /// </summary>
         public uint is_yarn;
     }
 
     /// <summary>
-    ///  The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+    ///  The plan of a mesh: yarns, settings and a device. It has all sizes of the mesh before the mesh
+    ///  is made.
     ///
-    ///  A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
-    ///  50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+    ///  A mesh is made in chunks, which are so small that a call ends within 50 ms after its run is
+    ///  cancelled. How many there are depends on the device, and on the number of the machine's cores.
+    ///  If a chunk ends inside a yarn, its last ring is also the first ring of the next chunk.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_plan
@@ -2113,7 +2186,7 @@ namespace Texere
     internal unsafe partial struct texere_counts
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -2121,11 +2194,11 @@ namespace Texere
         /// </summary>
         public uint reserved;
         /// <summary>
-        ///  Rings of all yarns.
+        ///  How many rings all yarns have together.
         /// </summary>
         public ulong rings;
         /// <summary>
-        ///  Vertices. A ring at which two chunks meet counts twice.
+        ///  How many vertices. The vertices of a ring at which two chunks meet count twice.
         /// </summary>
         public ulong vertices;
         /// <summary>
@@ -2133,7 +2206,7 @@ namespace Texere
         /// </summary>
         public ulong indices;
         /// <summary>
-        ///  Triangles that the draws draw.
+        ///  How many triangles the draws draw.
         /// </summary>
         public ulong triangles;
         /// <summary>
@@ -2141,24 +2214,24 @@ namespace Texere
         /// </summary>
         public ulong draws;
         /// <summary>
-        ///  Chunks that the mesh is made in.
+        ///  How many chunks the mesh is made in.
         /// </summary>
         public ulong chunks;
     }
 
     /// <summary>
-    ///  A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
+    ///  A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise as seen
     ///  from outside.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_draw
     {
         /// <summary>
-        ///  The first of its indices.
+        ///  The number of its first index in the mesh.
         /// </summary>
         public ulong first_index;
         /// <summary>
-        ///  How many indices it has, three a triangle.
+        ///  How many indices it has, three for each triangle.
         /// </summary>
         public ulong index_count;
         /// <summary>
@@ -2166,11 +2239,11 @@ namespace Texere
         /// </summary>
         public ulong base_vertex;
         /// <summary>
-        ///  How many vertices from `base_vertex` on its indices may refer to.
+        ///  How many vertices the indices of the draw may refer to, from `base_vertex` on.
         /// </summary>
         public ulong vertex_count;
         /// <summary>
-        ///  The yarn, from 0.
+        ///  The yarn, counted from 0.
         /// </summary>
         public uint yarn;
         /// <summary>
@@ -2186,7 +2259,7 @@ namespace Texere
     internal unsafe partial struct texere_chunk
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -2206,11 +2279,12 @@ namespace Texere
         /// </summary>
         public ulong first_index;
         /// <summary>
-        ///  How many indices it has. They count from its first vertex.
+        ///  How many indices it has. The indices count from its first vertex.
         /// </summary>
         public ulong index_count;
         /// <summary>
-        ///  Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+        ///  Its draws. Their indices and vertices are numbered in the whole mesh. They are valid until
+        ///  the plan is freed.
         /// </summary>
         public texere_draw* draws;
         /// <summary>
@@ -2220,8 +2294,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
-    ///  call while another thread's is under way fails with TEXERE_ARGUMENT.
+    ///  A device that makes pictures, and the yarns that the pictures show. One thread at a time may use
+    ///  it: a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_renderer
@@ -2229,8 +2303,9 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A call that takes long, as other threads see it: how far it has come, and whether it is to end.
-    ///  One run may be given to one call after another; each starts it at 0.
+    ///  The progress of a call that takes long, and whether the call is to end. Other threads read the
+    ///  one and set the other. A run may be given to one call after another; the progress begins at 0 in
+    ///  each.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_run
@@ -2238,11 +2313,12 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
-    ///  time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+    ///  Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
+    ///  two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
+    ///  older one.
     ///
-    ///  One thread at a time may use a session. A call while another thread's is under way fails with
-    ///  TEXERE_ARGUMENT.
+    ///  One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
+    ///  another thread is using it.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_session
@@ -2250,29 +2326,29 @@ namespace Texere
     }
 
     /// <summary>
-    ///  What can be chosen about a mesh. `texere_settings_default` fills it in.
+    ///  The settings of a mesh. `texere_settings_default` fills it in.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_settings
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  Points that are inserted between two control points, from 0.
+        ///  How many points are inserted between two control points, 0 or more.
         /// </summary>
         public uint subdivisions;
         /// <summary>
-        ///  Sides of the tubes, from 3.
+        ///  How many sides the tubes have, 3 or more.
         /// </summary>
         public uint sides;
         /// <summary>
-        ///  A number that begins with TEXERE_FRAME.
+        ///  A constant whose name begins with TEXERE_FRAME.
         /// </summary>
         public uint frame;
         /// <summary>
-        ///  A number that begins with TEXERE_TOPOLOGY.
+        ///  A constant whose name begins with TEXERE_TOPOLOGY.
         /// </summary>
         public uint topology;
         /// <summary>
@@ -2286,14 +2362,14 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
-    ///  draws until the plan is freed.
+    ///  A piece of a mesh: vertices, or indices. The piece is valid until the callback returns; its
+    ///  draws are valid until the plan is freed.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_piece
     {
         /// <summary>
-        ///  Bytes of this struct, which the library sets.
+        ///  Size of this struct, bytes. The library sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -2301,16 +2377,17 @@ namespace Texere
         /// </summary>
         public uint reserved;
         /// <summary>
-        ///  The chunk that the piece is of, from 0.
+        ///  The chunk that the piece belongs to, counted from 0.
         /// </summary>
         public ulong chunk;
         /// <summary>
-        ///  The number of the chunk's first vertex in the mesh: what to add to an index to get the
-        ///  number of a vertex.
+        ///  The number of the chunk's first vertex in the mesh. With TEXERE_TOPOLOGY_INDEXED it is what
+        ///  to add to an index to get the number of a vertex; with TEXERE_TOPOLOGY_SHARED that is
+        ///  `base_vertex` of each draw.
         /// </summary>
         public ulong base_vertex;
         /// <summary>
-        ///  The draws of the chunk, whose numbers are those of the whole mesh.
+        ///  The draws of the chunk. Their indices and vertices are numbered in the whole mesh.
         /// </summary>
         public texere_draw* draws;
         /// <summary>
@@ -2350,11 +2427,11 @@ namespace Texere
     internal unsafe partial struct texere_knit_yarn
     {
         /// <summary>
-        ///  Its diameter, mm; `texere_diameter` gives it for a yarn count.
+        ///  Its diameter, mm. `texere_diameter` works it out from a linear density in tex.
         /// </summary>
         public double diameter_mm;
         /// <summary>
-        ///  Twist, radians a mm; positive is Z twist.
+        ///  Twist, radians per mm; positive is Z twist.
         /// </summary>
         public float twist;
         /// <summary>
@@ -2372,8 +2449,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  Values that lie in the caller's memory: in an array of their own, or as one member of the
-    ///  structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+    ///  Values that lie in the caller's memory: in an array of their own, or as one member of each
+    ///  struct of an array. `data` and `stride` are multiples of the alignment of the values.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_view
@@ -2383,7 +2460,7 @@ namespace Texere
         /// </summary>
         public void* data;
         /// <summary>
-        ///  Bytes from `data` on that belong to the view: at least up to the end of the last value.
+        ///  How many bytes from `data` on belong to the view: at least up to the end of the last value.
         /// </summary>
         public ulong size;
         /// <summary>
@@ -2393,8 +2470,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  The movement of a guide at one course: from a needle space, in front of the needles, to another.
-    ///  Space n lies between the needles n - 1 and n.
+    ///  The lap of a guide at one course: in front of the needles, the guide moves from one needle space
+    ///  to another. Space n lies between needle n - 1 and needle n.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_lap
@@ -2404,7 +2481,8 @@ namespace Texere
         /// </summary>
         public int from;
         /// <summary>
-        ///  The needle space after it, 0 to 512, and two needles away at most. No needle: an inlay.
+        ///  The needle space after the overlap, 0 to 512, and at most two needles from `from`. Where it
+        ///  equals `from`, the yarn is laid in and makes no loop.
         /// </summary>
         public int to;
     }
@@ -2416,7 +2494,7 @@ namespace Texere
     internal unsafe partial struct texere_bar
     {
         /// <summary>
-        ///  Its chain: laps, course after course from the first one knitted.
+        ///  Its chain: a lap for each course, from the first course knitted on.
         /// </summary>
         public texere_lap* laps;
         /// <summary>
@@ -2424,19 +2502,20 @@ namespace Texere
         /// </summary>
         public ulong lap_count;
         /// <summary>
-        ///  The yarn of each guide, from 0, or TEXERE_NO_YARN. Null and 0: yarn 0 for all.
+        ///  The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
+        ///  all guides have yarn 0.
         /// </summary>
         public uint* threading;
         /// <summary>
-        ///  How many guides until the threading begins again.
+        ///  How many guides `threading` is for. After the last one it begins again.
         /// </summary>
         public ulong guide_count;
         /// <summary>
-        ///  Run-in: length of yarn for a rack of 480 courses, mm; 0 leaves it to the bar.
+        ///  Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
         /// </summary>
         public double run_in_mm;
         /// <summary>
-        ///  Needles by which the whole bar is moved towards the high numbers.
+        ///  By how many needles the whole bar is moved towards the high numbers.
         /// </summary>
         public int offset;
         /// <summary>
@@ -2452,23 +2531,24 @@ namespace Texere
     internal unsafe partial struct texere_warp_knit
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  A number that begins with TEXERE_CELLS.
+        ///  A constant whose name begins with TEXERE_CELLS.
         /// </summary>
         public uint cells;
         /// <summary>
-        ///  Wales, a multiple of those after which all bars begin again.
+        ///  How many wales: a multiple of the number after which the threadings of all bars begin again.
         /// </summary>
         public uint wales;
         /// <summary>
-        ///  Courses, a multiple of those after which all bars begin again.
+        ///  How many courses: a multiple of the number after which the chains of all bars begin again.
         /// </summary>
         public uint courses;
         /// <summary>
-        ///  Copies of the whole along the courses and along the wales, each from 1.
+        ///  How many copies of these wales and courses lie along the courses, and how many along the
+        ///  wales; each 1 or more.
         /// </summary>
         public fixed uint copies[2];
         /// <summary>
@@ -2476,7 +2556,7 @@ namespace Texere
         /// </summary>
         public byte* name;
         /// <summary>
-        ///  Bytes of the name.
+        ///  Length of the name, bytes.
         /// </summary>
         public System.UIntPtr name_length;
         /// <summary>
@@ -2496,15 +2576,15 @@ namespace Texere
         /// </summary>
         public ulong yarn_count;
         /// <summary>
-        ///  From one wale to the next, mm.
+        ///  Distance from one wale to the next, mm.
         /// </summary>
         public double wale_mm;
         /// <summary>
-        ///  From one course to the next, mm.
+        ///  Distance from one course to the next, mm.
         /// </summary>
         public double course_mm;
         /// <summary>
-        ///  What the yarns refer to.
+        ///  The materials and sections that the yarns refer to.
         /// </summary>
         public texere_looks looks;
     }
@@ -2516,11 +2596,12 @@ namespace Texere
     internal unsafe partial struct texere_stitch
     {
         /// <summary>
-        ///  A number that begins with TEXERE_STITCH.
+        ///  A constant whose name begins with TEXERE_STITCH.
         /// </summary>
         public uint kind;
         /// <summary>
-        ///  Needles to the right, negative to the left, 256 at most, by which the loop moves.
+        ///  By how many needles the loop moves, -256 to 256: positive to the right, negative to the
+        ///  left. Only the two kinds that begin with TEXERE_STITCH_MOVED read it.
         /// </summary>
         public int moved;
     }
@@ -2532,7 +2613,7 @@ namespace Texere
     internal unsafe partial struct texere_weft_knit
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -2540,11 +2621,12 @@ namespace Texere
         /// </summary>
         public uint beds;
         /// <summary>
-        ///  A number that begins with TEXERE_CELLS.
+        ///  A constant whose name begins with TEXERE_CELLS.
         /// </summary>
         public uint cells;
         /// <summary>
-        ///  Copies of the repeat along the courses and along the wales, each from 1.
+        ///  How many copies of the repeat lie along the courses, and how many along the wales; each 1 or
+        ///  more.
         /// </summary>
         public fixed uint copies[2];
         /// <summary>
@@ -2556,7 +2638,7 @@ namespace Texere
         /// </summary>
         public byte* name;
         /// <summary>
-        ///  Bytes of the name.
+        ///  Length of the name, bytes.
         /// </summary>
         public System.UIntPtr name_length;
         /// <summary>
@@ -2568,17 +2650,19 @@ namespace Texere
         /// </summary>
         public ulong courses;
         /// <summary>
-        ///  The stitches, course after course from the first (the bottom one), each from left to right
-        ///  as seen from the technical face: `wales` times `courses` of them.
+        ///  The stitches, `wales` times `courses` of them: course after course from the first, which is
+        ///  the bottom one, and in each course from left to right as seen from the technical face.
         /// </summary>
         public texere_stitch* stitches;
         /// <summary>
-        ///  The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
-        ///  all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+        ///  The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
+        ///  counted from 0. After the last one the first one follows again. Null with a `turn_count` of
+        ///  0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
+        ///  repeated upwards until it is.
         /// </summary>
         public uint* turn;
         /// <summary>
-        ///  How many yarns the turn has.
+        ///  How many numbers `turn` has.
         /// </summary>
         public ulong turn_count;
         /// <summary>
@@ -2590,19 +2674,20 @@ namespace Texere
         /// </summary>
         public ulong yarn_count;
         /// <summary>
-        ///  From one wale to the next, mm.
+        ///  Distance from one wale to the next, mm.
         /// </summary>
         public double wale_mm;
         /// <summary>
-        ///  From one course to the next, mm.
+        ///  Distance from one course to the next, mm.
         /// </summary>
         public double course_mm;
         /// <summary>
-        ///  The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+        ///  The mean length of yarn in a loop that settling aims for, mm. 0: loops take the length that
+        ///  they need.
         /// </summary>
         public double loop_length_mm;
         /// <summary>
-        ///  What the yarns refer to.
+        ///  The materials and sections that the yarns refer to.
         /// </summary>
         public texere_looks looks;
     }
@@ -2614,11 +2699,13 @@ namespace Texere
     internal unsafe partial struct texere_thread
     {
         /// <summary>
-        ///  Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+        ///  Width of the strip of cloth that the thread takes, mm. The distance of two neighbours is
+        ///  half the sum of their spacings.
         /// </summary>
         public double spacing_mm;
         /// <summary>
-        ///  Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+        ///  Diameter that the yarn has when it is round, mm. `texere_diameter` works it out from a
+        ///  linear density in tex.
         /// </summary>
         public double diameter_mm;
         /// <summary>
@@ -2626,11 +2713,12 @@ namespace Texere
         /// </summary>
         public float flatness;
         /// <summary>
-        ///  Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+        ///  Stiffness against bending when the yarns come to rest, 0.01 to 100; 1 for cotton yarn of the
+        ///  same diameter. 0 stands for 1.
         /// </summary>
         public float stiffness;
         /// <summary>
-        ///  Twist, radians a mm; positive is Z twist.
+        ///  Twist, radians per mm; positive is Z twist.
         /// </summary>
         public float twist;
         /// <summary>
@@ -2654,23 +2742,23 @@ namespace Texere
     internal unsafe partial struct texere_woven
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  A number that begins with TEXERE_SHAPE.
+        ///  A constant whose name begins with TEXERE_SHAPE.
         /// </summary>
         public uint shape;
         /// <summary>
-        ///  A number that begins with TEXERE_RELIEF.
+        ///  A constant whose name begins with TEXERE_RELIEF.
         /// </summary>
         public uint relief;
         /// <summary>
-        ///  1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+        ///  1 if the weft turns back round the outermost ends, 0 if each pick is cut at both edges.
         /// </summary>
         public uint selvedge;
         /// <summary>
-        ///  A number that begins with TEXERE_CRIMP.
+        ///  A constant whose name begins with TEXERE_CRIMP.
         /// </summary>
         public uint crimp;
         /// <summary>
@@ -2683,7 +2771,7 @@ namespace Texere
         /// </summary>
         public byte* name;
         /// <summary>
-        ///  Bytes of the name.
+        ///  Length of the name, bytes.
         /// </summary>
         public System.UIntPtr name_length;
         /// <summary>
@@ -2695,10 +2783,10 @@ namespace Texere
         /// </summary>
         public ulong picks;
         /// <summary>
-        ///  A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
-        ///  the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
-        ///  second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
-        ///  bytes, and `stride` bytes lie between the beginnings of two rows.
+        ///  A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
+        ///  bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
+        ///  of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
+        ///  7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
         /// </summary>
         public texere_view drawdown;
         /// <summary>
@@ -2710,7 +2798,7 @@ namespace Texere
         /// </summary>
         public texere_thread* weft;
         /// <summary>
-        ///  What the threads refer to.
+        ///  The materials and sections that the threads refer to.
         /// </summary>
         public texere_looks looks;
     }
@@ -2724,7 +2812,7 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A place on the centreline of a yarn, mm.
+    ///  A control point of a yarn, mm.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_point
@@ -2746,7 +2834,7 @@ namespace Texere
         /// </summary>
         public float half_width;
         /// <summary>
-        ///  Half the height of the yarn, out of the cloth. A round yarn has its half width.
+        ///  Half the height of the yarn, out of the cloth. In a round yarn it equals `half_width`.
         /// </summary>
         public float half_height;
     }
@@ -2758,7 +2846,7 @@ namespace Texere
     internal unsafe partial struct texere_yarn_arrays
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
@@ -2770,36 +2858,36 @@ namespace Texere
         /// </summary>
         public ulong yarns;
         /// <summary>
-        ///  Where the points of each yarn begin, and behind them how many points there are in all:
-        ///  `yarns + 1` numbers, the first of which is 0.
+        ///  `yarns + 1` numbers: for each yarn the number of its first point, counted from 0 in
+        ///  `points`, and at the end how many points there are in all.
         /// </summary>
         public ulong* offsets;
         /// <summary>
-        ///  The points of all yarns, yarn after yarn.
+        ///  The control points of all yarns, yarn after yarn.
         /// </summary>
         public texere_point* points;
         /// <summary>
-        ///  For each yarn 1 if its last point joins up with its first, else 0. Null: all are open.
+        ///  For each yarn 1 if its last point joins up with its first, else 0. Null: no yarn is closed.
         /// </summary>
         public byte* closed;
         /// <summary>
-        ///  For each yarn its twist, radians a mm; positive is Z twist. Null: none has twist.
+        ///  For each yarn its twist, radians per mm; positive is Z twist. Null: no yarn is twisted.
         /// </summary>
         public float* twist;
     }
 
     /// <summary>
-    ///  How much yarns hold.
+    ///  How many yarns and control points a handle of yarns has.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_yarn_counts
     {
         /// <summary>
-        ///  Bytes of this struct, which the caller sets.
+        ///  Size of this struct, bytes. The caller sets it.
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  Tension of their splines.
+        ///  Tension of the splines through the control points.
         /// </summary>
         public float tension;
         /// <summary>
@@ -2807,7 +2895,7 @@ namespace Texere
         /// </summary>
         public ulong yarns;
         /// <summary>
-        ///  How many control points they have in all.
+        ///  How many control points all yarns have together.
         /// </summary>
         public ulong points;
     }
@@ -2823,12 +2911,13 @@ namespace Texere
         /// </summary>
         TEXERE_OK = 0,
         /// <summary>
-        ///  A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind,
-        ///  or a value out of its range.
+        ///  An argument is refused: a null or misaligned pointer, a wrong size, a value out of its
+        ///  range, or a handle that was freed, is of another kind, is in use by another thread or is not
+        ///  ready for the call.
         /// </summary>
         TEXERE_ARGUMENT = 1,
         /// <summary>
-        ///  The design can't be read, or its cloth can't be made.
+        ///  A file holds no design or no yarns, or the cloth of a design can't be made.
         /// </summary>
         TEXERE_DESIGN = 2,
         /// <summary>
@@ -2844,15 +2933,18 @@ namespace Texere
         /// </summary>
         TEXERE_IO = 5,
         /// <summary>
-        ///  The call ended early since `texere_run_cancel` was called.
+        ///  The call ended early, because `texere_run_cancel` was called, or because a callback that
+        ///  takes pieces of a mesh or of a file returned a number other than 0.
         /// </summary>
         TEXERE_CANCELLED = 6,
         /// <summary>
-        ///  The library was built without what the call needs, or the device can't do it.
+        ///  The library was built without what the call needs, or the device or the file format does not
+        ///  support it.
         /// </summary>
         TEXERE_UNSUPPORTED = 7,
         /// <summary>
-        ///  A fault of the library. It was caught, and the library can still be used.
+        ///  The library itself has a fault: its code panicked. The panic was caught, and the library can
+        ///  still be used.
         /// </summary>
         TEXERE_PANIC = 8,
     }

@@ -1,10 +1,10 @@
-// What a ray hits first of yarns.
+// What a ray hits first of the mesh of yarns.
 
 using System.Runtime.InteropServices;
 
 namespace Texere
 {
-    /// <summary>A ray: where it starts, mm, and a direction of any length but 0.</summary>
+    /// <summary>A ray: its start, mm, and its direction, of any length but 0.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Ray
     {
@@ -22,7 +22,7 @@ namespace Texere
         public double DirectionZ;
     }
 
-    /// <summary>Where on a yarn's surface a hit is.</summary>
+    /// <summary>The cap of a yarn on which a hit lies, if it lies on one.</summary>
     public enum Cap : uint
     {
         /// <summary>On no cap: the hit is on the side of the yarn.</summary>
@@ -38,34 +38,34 @@ namespace Texere
     public struct Hit
     {
         readonly uint found;
-        /// <summary>The yarn, from 0.</summary>
+        /// <summary>The yarn, counted from 0.</summary>
         public uint Yarn;
-        /// <summary>The ring before the triangle, from the start of the yarn.</summary>
+        /// <summary>The ring before the triangle that is hit, counted from 0 at the start of the yarn.</summary>
         public uint Ring;
-        /// <summary>The corner of the section before the triangle, from 0; 0 on a cap.</summary>
+        /// <summary>The corner of the section before the triangle, counted from 0; 0 on a cap.</summary>
         public uint Side;
         /// <summary>The cap that is hit.</summary>
         public Cap Cap;
-        /// <summary>The control interval of the yarn, from 0: that between this control point and the next.</summary>
+        /// <summary>The interval of the yarn, from 0: interval n lies between control points n and n + 1.</summary>
         public uint Interval;
-        /// <summary>How far along the interval, from 0 to 1.</summary>
+        /// <summary>Position along the interval, from 0 to 1.</summary>
         public double T;
         /// <summary>Distance from the start of the ray, in lengths of its direction.</summary>
         public double Distance;
-        /// <summary>The point that is hit, mm, along the weft or the courses.</summary>
+        /// <summary>x of the point that is hit, mm: along the weft or the courses.</summary>
         public double X;
-        /// <summary>The point along the warp or the wales.</summary>
+        /// <summary>y of the point, mm: along the warp or the wales.</summary>
         public double Y;
-        /// <summary>The point out of the technical face.</summary>
+        /// <summary>z of the point, mm: out of the technical face.</summary>
         public double Z;
 
         internal bool Found => found != 0;
     }
 
-    /// <summary>Says what a ray hits first of the mesh of yarns, without the mesh.</summary>
+    /// <summary>Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.</summary>
     public sealed unsafe class Picker : Handle
     {
-        /// <summary>Makes a picker, with the settings that suit the yarns unless others are given.</summary>
+        /// <summary>Makes a picker. Null settings stand for those that suit the yarns.</summary>
         public Picker(Yarns yarns, Settings? settings = null) : base(Made(yarns, settings)) { }
 
         static texere_picker* Made(Yarns yarns, Settings? settings)
@@ -77,7 +77,7 @@ namespace Texere
             return made;
         }
 
-        /// <summary>What a ray hits first, from either side; null where it hits nothing.</summary>
+        /// <summary>What a ray hits first, from either side, or null if it hits nothing.</summary>
         public Hit? Pick(Ray ray)
         {
             Hit hit;

@@ -4,10 +4,10 @@ using System;
 
 namespace Texere
 {
-    /// <summary>A device that makes pictures, and the yarns that it shows. One thread at a time may use it.</summary>
+    /// <summary>A device that makes pictures of yarns. One thread at a time may use it.</summary>
     public sealed unsafe class Renderer : Handle
     {
-        /// <summary>Opens "auto", "wgpu", "wgpu:1" and so on.</summary>
+        /// <summary>Opens a device by its name: "auto" for the best one, "wgpu", "wgpu:1" and so on.</summary>
         public Renderer(string name = "auto") : base(Made(name)) { }
 
         static texere_renderer* Made(string name)
@@ -23,14 +23,14 @@ namespace Texere
 
         texere_renderer* Own => (texere_renderer*)Pointer;
 
-        /// <summary>Shows yarns from now on in place of others.</summary>
+        /// <summary>Shows yarns from now on in place of those before.</summary>
         public void Show(Yarns yarns, Run run = null) =>
             Call.Check(Native.texere_renderer_show(Own, yarns.Own, null, Run.Of(run)), this, yarns, run);
 
         /// <summary>Makes a picture of the whole cloth from above its face, on light grey ground.</summary>
         /// <param name="width">Pixels across.</param>
         /// <param name="height">Pixels down.</param>
-        /// <param name="run">Progress, and an end before it is done.</param>
+        /// <param name="run">Gets the progress, and can cancel the call.</param>
         /// <returns>Red, green, blue and alpha of each pixel, sRGB, row after row from the top.</returns>
         public byte[] Picture(int width, int height, Run run = null)
         {

@@ -1,14 +1,14 @@
-// texere for .NET: classes over the library's calls. docs/C.md goes from the install to the first mesh.
+// texere for .NET: classes over the library's calls. docs/C.md describes the installation and a first mesh.
 
 using System;
 using System.Collections.Generic;
 
 namespace Texere
 {
-    /// <summary>Progress of calls, and their end before they are done. Any thread may ask and cancel.</summary>
+    /// <summary>Progress and cancellation of calls. Any thread may use them.</summary>
     public sealed unsafe class Run : Handle
     {
-        /// <summary>A run that was given to no call yet.</summary>
+        /// <summary>Makes a run, which a program then gives to calls.</summary>
         public Run() : base(Made()) { }
 
         static texere_run* Made()
@@ -20,13 +20,13 @@ namespace Texere
 
         texere_run* Own => (texere_run*)Pointer;
 
-        /// <summary>The handle of a run that may be left out.</summary>
+        /// <summary>The handle of a run, or null if there is none.</summary>
         internal static texere_run* Of(Run run) => run == null ? null : run.Own;
 
-        /// <summary>Asks the call that has it, and every later one, to end with <see cref="Status.Cancelled"/>.</summary>
+        /// <summary>Ends the call that has this run, and all later ones: <see cref="Status.Cancelled"/>.</summary>
         public void Cancel() => Call.Check(Native.texere_run_cancel(Own), this);
 
-        /// <summary>How much of the call is done, from 0 to 1.</summary>
+        /// <summary>The share of the call that is done, from 0 to 1.</summary>
         public double Progress
         {
             get
@@ -48,7 +48,7 @@ namespace Texere
     /// <summary>An open device: a GPU, or the CPU.</summary>
     public sealed unsafe class Device : Handle
     {
-        /// <summary>Opens "auto", "cpu", "opencl:0", "wgpu" and so on.</summary>
+        /// <summary>Opens a device by its name: "auto" for the best one, "cpu", "opencl:0", "wgpu" and so on.</summary>
         public Device(string name = "auto") : base(Made(name)) { }
 
         static texere_device* Made(string name)
@@ -74,15 +74,15 @@ namespace Texere
             }
         }
 
-        /// <summary>The name that opens it, such as "cpu" or "opencl:0".</summary>
+        /// <summary>The name that opens the device, such as "cpu" or "opencl:0".</summary>
         public string Name => Copied(Info.name);
-        /// <summary>The device as its maker calls it.</summary>
+        /// <summary>The maker's name of the device.</summary>
         public override string ToString() => Copied(Info.device);
         /// <summary>Its driver, with the version.</summary>
         public string Driver => Copied(Info.driver);
-        /// <summary>Whether yarns can come to rest on it.</summary>
+        /// <summary>Whether yarns of all structures can come to rest on the device.</summary>
         public bool Settles => Info.settles != 0;
-        /// <summary>Bytes of memory that it has; 0 where it does not say so.</summary>
+        /// <summary>How much memory the device has, bytes; 0 if it is not known.</summary>
         public ulong MemoryBytes => Info.memory_bytes;
 
         /// <inheritdoc/>
@@ -98,7 +98,7 @@ namespace Texere
     {
         Design(texere_design* made) : base(made) { }
 
-        /// <summary>Reads the design in a file: .wif, .toml, .k.</summary>
+        /// <summary>Reads a design from a file: .wif, .toml or .k.</summary>
         public static Design Read(string path)
         {
             texere_design* made;
@@ -110,9 +110,9 @@ namespace Texere
             return new Design(made);
         }
 
-        /// <summary>Reads a design that lies in memory and names no files.</summary>
-        /// <param name="name">Says by its ending what kind of design it is; errors call it so.</param>
-        /// <param name="data">What the file would hold.</param>
+        /// <summary>Reads a design from memory. It may not name other files.</summary>
+        /// <param name="name">Stands for the file's name: its ending says what kind of design it is.</param>
+        /// <param name="data">The contents of the file.</param>
         public static Design Read(string name, ReadOnlySpan<byte> data)
         {
             texere_design* made;
@@ -135,25 +135,25 @@ namespace Texere
         }
     }
 
-    /// <summary>How the yarns of a cloth came to rest.</summary>
+    /// <summary>Whether the yarns of a cloth came to rest.</summary>
     public enum Outcome
     {
-        /// <summary>They are where the structure places them: the design does not ask for more.</summary>
+        /// <summary>They are where the structure places them, as the design or <see cref="Cloth.Placed"/> asks.</summary>
         Placed = 0,
         /// <summary>They came to rest.</summary>
         AtRest = 1,
-        /// <summary>They settled and are not at rest; the report says what is left.</summary>
+        /// <summary>They settled without coming to rest.</summary>
         NotAtRest = 2,
-        /// <summary>They are where the structure places them, for they can't come to rest; the report says why.</summary>
+        /// <summary>They are where the structure places them: they can't come to rest, and the report says why.</summary>
         Refused = 3,
     }
 
-    /// <summary>The cloth of a design: its yarns, and how they came to rest.</summary>
+    /// <summary>The cloth of a design: its yarns, and whether they came to rest.</summary>
     public sealed unsafe class Cloth : Handle
     {
         Cloth(texere_cloth* made) : base(made) { }
 
-        /// <summary>Makes the cloth, with its yarns at rest where the design asks for it.</summary>
+        /// <summary>Makes the cloth of a design, with its yarns at rest if the design asks for it.</summary>
         public static Cloth Rest(Design design, Device device, Run run = null)
         {
             texere_cloth* made;
@@ -162,7 +162,7 @@ namespace Texere
             return new Cloth(made);
         }
 
-        /// <summary>Makes the cloth with its yarns as the structure places them.</summary>
+        /// <summary>Makes the cloth of a design with its yarns where the structure places them.</summary>
         public static Cloth Placed(Design design)
         {
             texere_cloth* made;
@@ -182,13 +182,13 @@ namespace Texere
             }
         }
 
-        /// <summary>How the yarns came to rest.</summary>
+        /// <summary>Whether the yarns came to rest.</summary>
         public Outcome Outcome => (Outcome)Told.outcome;
 
         /// <summary>The outcome in words.</summary>
         public string Report => Copied(Told.words);
 
-        /// <summary>What is doubtful about the cloth.</summary>
+        /// <summary>What a designer should know of the cloth, such as wishes of its design that it did not reach.</summary>
         public IReadOnlyList<string> Warnings
         {
             get

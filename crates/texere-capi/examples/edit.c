@@ -1,5 +1,5 @@
-// An edit and its undo: edit DESIGN DEVICE MESH. Only what an edit changes is made and read again. The mesh goes to the
-// file MESH as arrays: vertices, then three numbers of vertices for each triangle.
+// An edit and its undo: edit DESIGN DEVICE MESH. Only the parts of the mesh that an edit changes are made and read
+// again. The file MESH gets the mesh as arrays: vertices, then three numbers of vertices for each triangle.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,11 +12,11 @@ static void check(enum texere_status status) {
     exit(status);
 }
 
-// Sets the lift of end 3 at pick 4, brings it to the mesh, and reads what has changed.
+// Sets the lift of end 3 at pick 4, brings it to the mesh, and reads the parts that have changed.
 static void lift(struct texere_live *live, uint32_t up, struct texere_vertex *vertices, uint32_t *indices) {
     check(texere_live_set_lift(live, 2, 3, up));
     struct texere_update update = {.struct_size = sizeof update};
-    check(texere_live_update(live, &update));
+    check(texere_live_update(live, NULL, &update));
     if (update.anew) exit(1);
     printf("%s: %llu stretches made again\n", up ? "up" : "down", (unsigned long long)update.change_count);
     for (const struct texere_change *c = update.changes; c < update.changes + update.change_count; c++)
@@ -33,7 +33,7 @@ int main(int count, char **arguments) {
     check(texere_cloth_placed(design, &cloth));
     check(texere_live_of_cloth(cloth, device, NULL, &live));
     struct texere_update update = {.struct_size = sizeof update};
-    check(texere_live_update(live, &update));
+    check(texere_live_update(live, NULL, &update));
     struct texere_counts counts = {.struct_size = sizeof counts};
     check(texere_live_counts(live, &counts));
     struct texere_vertex *vertices = calloc(counts.vertices, sizeof *vertices);

@@ -1,11 +1,11 @@
-// A design to its mesh: mesh DESIGN DEVICE OUTPUT. The mesh goes to arrays, and to OUTPUT.
+// From a design to its mesh: mesh DESIGN DEVICE OUTPUT. The mesh goes to arrays, and to the .glb or .ply file OUTPUT.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "texere.h"
 
-// Ends the program where a call failed.
+// Ends the program if a call failed.
 static void check(enum texere_status status) {
     if (status == TEXERE_OK) return;
     struct texere_place place;

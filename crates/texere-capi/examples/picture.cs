@@ -1,11 +1,11 @@
-// A draft to a picture: picture DESIGN DEVICE BITMAP.
+// From a draft to a picture: picture DESIGN DEVICE BITMAP. Yarns come to rest on DEVICE.
 using System;
 using System.IO;
 using Texere;
 
 static class Picture
 {
-    // Writes 32 bits a pixel, rows from the top.
+    // Writes a BMP file of 32 bits for each pixel, with rows from the top.
     static void Write(string path, int width, int height, byte[] pixels)
     {
         using (var file = new BinaryWriter(File.Create(path)))
@@ -14,7 +14,7 @@ static class Picture
             var size = pixels.Length;
             var header = new[] { 54 + size, 0, 54, 40, width, -height, 32 << 16 | 1, 0, size, 0, 0, 0, 0 };
             foreach (var number in header) file.Write(number);
-            // Bitmaps have blue first.
+            // A pixel of a BMP file begins with blue.
             for (var at = 0; at < size; at += 4) Array.Reverse(pixels, at, 3);
             file.Write(pixels);
         }

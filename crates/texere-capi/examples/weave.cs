@@ -1,4 +1,4 @@
-// A draft to a mesh, and a lift: weave DESIGN DEVICE MESH. The arrays go to the file MESH as they lie in memory.
+// From a draft to its mesh, and a changed lift: weave DESIGN DEVICE MESH. The file MESH gets the mesh's arrays.
 using System;
 using System.IO;
 using System.Runtime.InteropServices;

@@ -1,4 +1,4 @@
-// Yarns of the caller's own: a ring and a straight yarn, meshed on the CPU, saved and read again.
+// Yarns of the program's own, a ring and a straight yarn: saved in a file, read again, and planned as a mesh on the CPU.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

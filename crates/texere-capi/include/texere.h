@@ -1,8 +1,9 @@
 // texere: textile designs to yarn-level 3D geometry.
 //
-// A function that can fail gives a texere_status; texere_error_message says in words what went
-// wrong, and texere_error_place where in a design's file. What a `_free` function takes may be null,
-// or freed already. A handle is looked up and never followed, so a handle that was freed is refused.
+// A function that can fail returns a texere_status; texere_error_message says in words what went
+// wrong, and texere_error_place where in a design's file. A handle is a number with the type of a
+// pointer. The library looks it up in a table and never dereferences it, so a handle that was freed
+// is refused. A `_free` function does nothing for a null handle, and for one that was freed already.
 //
 // Handles may be used by several threads at once, unless their description says that one thread at a
 // time may use them. A handle that is freed while another thread's call uses it lives until that call
@@ -20,62 +21,74 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The number of the binary interface. A program compares it with `texere_abi` of the library
-// that it has loaded: they are equal, or the program can't use that library.
+// The number of the binary interface. A program compares this number of its header with what
+// `texere_abi` of the loaded library returns. If the two differ, the program can't use that
+// library.
 #define TEXERE_ABI 1
 
-// The share by which yarns may come short of touching and still count as touching, as a rule.
+// The usual `accuracy` of `texere_check_new`: the share by which yarns may come short of touching
+// and still count as touching.
 #define TEXERE_ACCURACY 0.015
 
-// More yarn lies in a place than there is room for, or too many parts of yarns to measure them
-// pair by pair. The value is the yarns' volume over the room.
+// At a place there is more yarn than room, or so many parts of yarns that they can't be measured
+// pair by pair. The value is the volume of the yarns over the room.
 #define TEXERE_FAULT_CROWDED 0
 
-// Two yarns pierce one another. The value is how near they come: 1 where they just touch.
+// Two yarns pierce one another. The value is how near they come: 1 if they just touch, less if
+// they pierce.
 #define TEXERE_FAULT_PIERCES 1
 
-// A bend is tighter than the tube is thick. The value is its radius in radii of the yarn.
+// A bend is so tight that the tube folds into itself. The value is the radius of the bend over how
+// far the yarn's section reaches into the bend; below 1 the tube folds.
 #define TEXERE_FAULT_FOLDS 2
 
-// A thread lies too close to the one before for crossing threads to pass. The value is their
-// distance over the one that is needed. There is no one place.
+// A thread lies so close to the thread before it that crossing threads can't pass between the two.
+// The value is their distance over the distance that is needed. The fault has no single place.
 #define TEXERE_FAULT_JAMS 3
 
-// The cloth does not hang together. The value is the number of its pieces. There is no one place.
+// The cloth does not hang together. The value is the number of its pieces. The fault has no single
+// place.
 #define TEXERE_FAULT_APART 4
 
-// The mesh is wrung between two rings. The value is its width there in radii of the yarn.
+// The mesh is wrung: narrowed because two neighbouring rings are turned against one another. The
+// value is the width half way between the two, as a share of the width on the rings.
 #define TEXERE_FAULT_WRUNG 5
 
-// Triangles of the mesh face inwards. The value is how many; the place is that of the first.
+// Triangles of the mesh face inwards. The value is how many; the place is that of the first
+// triangle.
 #define TEXERE_FAULT_INSIDE_OUT 6
 
 // A knitting machine can't do a step of the program. There is neither a value nor a place.
 #define TEXERE_FAULT_MACHINE 7
 
-// The yarns are where the structure places them: the design does not ask for more.
+// The yarns are where the structure places them, because the design does not ask that they come to
+// rest, or because `texere_cloth_placed` made the cloth.
 #define TEXERE_PLACED 0
 
 // The yarns came to rest.
 #define TEXERE_AT_REST 1
 
-// The yarns settled and are not at rest; `words` of the report says what is left.
+// The yarns settled without coming to rest. `words` of the report is "not at rest", or "jammed,
+// not at rest" if the yarns of a knit have no room.
 #define TEXERE_NOT_AT_REST 2
 
-// The yarns are where the structure places them, for they can't come to rest; `words` says why.
+// The yarns are where the structure places them, because they can't come to rest. `words` of the
+// report says why.
 #define TEXERE_REFUSED 3
 
-// The structure's own choice: loops of a knit reach the length that its gauge asks for, or are
-// free.
+// The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
+// has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
+// yarns has none, yarns keep their lengths.
 #define TEXERE_LENGTH_USUAL 0
 
-// No yarn is drawn through.
+// Yarns keep their lengths, interval by interval, so that no yarn is drawn along its path.
 #define TEXERE_LENGTH_HELD 1
 
-// Yarns get `length` times their length, 0.5 to 2.
+// Yarns get `length` times the length that they have at the start, 0.5 to 2.
 #define TEXERE_LENGTH_GIVEN 2
 
-// Yarns take the length that they need; `length` is a tension that draws them in, 0 to 0.1.
+// Yarns take the length that their path needs. `length` is a tension that shortens them, 0 to 0.1:
+// the share of its length by which an interval is shortened in a pass.
 #define TEXERE_LENGTH_FREE 3
 
 // Cloth is not stretched.
@@ -96,20 +109,21 @@
 // A circle.
 #define TEXERE_SECTION_CIRCLE 0
 
-// An ellipse: `aspect`.
+// An ellipse whose width over height is `aspect`.
 #define TEXERE_SECTION_ELLIPSE 1
 
-// Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
-// middle, in half heights, -0.9 to 0.9.
+// Two arcs that meet in two edges. The section has `aspect`; `form` is the height of the edges
+// above the middle, in half heights, -0.9 to 0.9.
 #define TEXERE_SECTION_LENTICULAR 2
 
-// An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+// An ellipse whose height at angle a is in proportion to |sin a|^`form` instead of |sin a|. The
+// section has `aspect`; `form` is 0.1 to 4, and 1 is an ellipse.
 #define TEXERE_SECTION_POWER_ELLIPSE 3
 
-// Plies that are twisted together: `count` of them, 2 to 12.
+// The outline of `count` round plies twisted together, 2 to 12.
 #define TEXERE_SECTION_LOBED 4
 
-// The outline in `corners`, 3 to 256 of them.
+// The outline through `corners`: `count` corners, 3 to 256.
 #define TEXERE_SECTION_POLYGON 5
 
 // No cap: the hit is on the side of the yarn.
@@ -124,55 +138,58 @@
 // The whole cloth from straight above its face.
 #define TEXERE_VIEW_FACE 0
 
-// The whole cloth from above its lower edge, turned by `turn`.
+// The whole cloth from above, with the eye on the side of the cloth's lower edge. `turn` turns the
+// eye about the cloth's middle.
 #define TEXERE_VIEW_OBLIQUE 1
 
-// A stretch of `width_mm` round the point `at`, from above and aside.
+// A part of the cloth, `width_mm` wide, round the point `at`, from above and aside.
 #define TEXERE_VIEW_CLOSE_UP 2
 
-// A cut across the ends, through the point `at`, `width_mm` of it.
+// A cut across the ends, through the point `at`. The picture shows `width_mm` of it.
 #define TEXERE_VIEW_CUT_WARP 3
 
-// A cut across the picks, through the point `at`, `width_mm` of it.
+// A cut across the picks, through the point `at`. The picture shows `width_mm` of it.
 #define TEXERE_VIEW_CUT_WEFT 4
 
-// From `eye` to `target`, with `field_of_view`.
+// The view from `eye` to `target`, with `field_of_view`.
 #define TEXERE_VIEW_EYE 5
 
-// From `eye` to `target` with parallel lines of sight; the picture shows `height_mm`.
+// The view in the direction from `eye` to `target`, with parallel lines of sight. The picture
+// shows `height_mm` from its lower to its upper edge.
 #define TEXERE_VIEW_PARALLEL 6
 
 // Light grey ground that the cloth lies on and casts its shadow on.
 #define TEXERE_BACKGROUND_GROUND 0
 
-// The colour `color`.
+// One colour, `color`.
 #define TEXERE_BACKGROUND_COLOR 1
 
-// Nothing: alpha says how much of each pixel is yarn.
+// Nothing. Alpha says how much of each pixel shows yarn.
 #define TEXERE_BACKGROUND_NOTHING 2
 
-// Sections stand with their side level. Yarns that are too steep for that are carried along.
+// Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
+// anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
 #define TEXERE_FRAME_UPRIGHT 0
 
-// Sections are carried along the yarn without turning.
+// Sections are carried along the yarn without turning about it.
 #define TEXERE_FRAME_ROTATION_MINIMIZING 1
 
-// Three indices a triangle, counted from the base vertex of their draw.
+// Three indices for each triangle, counted from the base vertex of their draw.
 #define TEXERE_TOPOLOGY_INDEXED 0
 
-// One pattern of indices for all draws.
+// One pattern of indices that all draws use, counted from the base vertex of each draw.
 #define TEXERE_TOPOLOGY_SHARED 1
 
 // No indices.
 #define TEXERE_TOPOLOGY_NONE 2
 
-// As many control points as the bends of a yarn need.
+// Each stitch has as many control points as the bends of its yarn need.
 #define TEXERE_CELLS_ROUND 0
 
-// Equally many control points for each stitch.
+// All stitches have the same number of control points.
 #define TEXERE_CELLS_EVEN 1
 
-// The yarn of an empty guide.
+// Stands in `threading` of a bar for a guide without a yarn.
 #define TEXERE_NO_YARN 4294967295
 
 // The front needle knits.
@@ -181,28 +198,30 @@
 // The back needle knits.
 #define TEXERE_STITCH_PURL 1
 
-// Front and back needle both knit, on two beds.
+// Front and back needle both knit. This needs two beds.
 #define TEXERE_STITCH_BOTH 2
 
-// The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+// The needle takes the yarn and keeps its loops. On two beds it is the front needle.
 #define TEXERE_STITCH_TUCK 3
 
-// The back needle tucks, on two beds.
+// The back needle takes the yarn and keeps its loops. This needs two beds.
 #define TEXERE_STITCH_BACK_TUCK 4
 
 // The yarn floats past.
 #define TEXERE_STITCH_MISS 5
 
-// The front needle knits, and its loop moves by `moved` needles, in front of the others.
+// The front needle knits, and its loop then moves by `moved` needles, in front of other loops that
+// move.
 #define TEXERE_STITCH_MOVED 6
 
-// The front needle knits, and its loop moves by `moved` needles, behind the others.
+// The front needle knits, and its loop then moves by `moved` needles, behind other loops that
+// move.
 #define TEXERE_STITCH_MOVED_BEHIND 7
 
 // Threads bend round one another as round threads do, and floats lie flat.
 #define TEXERE_SHAPE_ROUND 0
 
-// One control point a crossing, and one before and after.
+// A thread has one control point at each crossing, one before all of them and one after.
 #define TEXERE_SHAPE_CROSSING 1
 
 // Threads that lie too close are only reported.
@@ -214,7 +233,8 @@
 // Threads that lie too close are made thinner.
 #define TEXERE_RELIEF_SHRINK 2
 
-// The stiffer set stays the straighter.
+// Warp and weft share the crimp by stiffness, which is taken as the fourth power of the radius:
+// the stiffer set stays straighter. `stiffness` of the threads does not count.
 #define TEXERE_CRIMP_STIFFNESS 0
 
 // The warp has `warp_share` of the crimp.
@@ -230,10 +250,11 @@
 typedef enum texere_status {
   // The call did what it is for.
   TEXERE_OK = 0,
-  // A null or misaligned pointer, a wrong size, a handle that was freed or is of another kind,
-  // or a value out of its range.
+  // An argument is refused: a null or misaligned pointer, a wrong size, a value out of its
+  // range, or a handle that was freed, is of another kind, is in use by another thread or is not
+  // ready for the call.
   TEXERE_ARGUMENT = 1,
-  // The design can't be read, or its cloth can't be made.
+  // A file holds no design or no yarns, or the cloth of a design can't be made.
   TEXERE_DESIGN = 2,
   // There is no such device, or it failed.
   TEXERE_DEVICE = 3,
@@ -241,72 +262,79 @@ typedef enum texere_status {
   TEXERE_MEMORY = 4,
   // A file can't be read or written.
   TEXERE_IO = 5,
-  // The call ended early since `texere_run_cancel` was called.
+  // The call ended early, because `texere_run_cancel` was called, or because a callback that
+  // takes pieces of a mesh or of a file returned a number other than 0.
   TEXERE_CANCELLED = 6,
-  // The library was built without what the call needs, or the device can't do it.
+  // The library was built without what the call needs, or the device or the file format does not
+  // support it.
   TEXERE_UNSUPPORTED = 7,
-  // A fault of the library. It was caught, and the library can still be used.
+  // The library itself has a fault: its code panicked. The panic was caught, and the library can
+  // still be used.
   TEXERE_PANIC = 8,
 } texere_status;
 
 // The check of a cloth: how near its yarns come to one another, its faults, and their cures.
 typedef struct texere_check texere_check;
 
-// The cloth of a design: its yarns, and how they came to rest.
+// The cloth of a design: its yarns, and whether they came to rest.
 typedef struct texere_cloth texere_cloth;
 
-// A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
-// structure by arrays.
+// A design: read from a WIF draft, a design file or a program of a knitting machine, or made from
+// the caller's arrays.
 typedef struct texere_design texere_design;
 
 // An open device: a GPU, or the CPU.
 typedef struct texere_device texere_device;
 
-// A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
-// call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+// A cloth that is being edited, with its whole mesh on a device. One thread at a time may use it:
+// a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
 //
-// An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
-// brings it to the mesh. To undo an edit, set the old value again.
+// `texere_live_yarns` and `texere_live_pick` see an edit at once. `texere_live_update` brings
+// edits to the mesh. To undo an edit, set the old value again.
 typedef struct texere_live texere_live;
 
-// Says what a ray hits first of the mesh of yarns, without the mesh.
+// Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
 typedef struct texere_picker texere_picker;
 
-// The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+// The plan of a mesh: yarns, settings and a device. It has all sizes of the mesh before the mesh
+// is made.
 //
-// A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
-// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+// A mesh is made in chunks, which are so small that a call ends within 50 ms after its run is
+// cancelled. How many there are depends on the device, and on the number of the machine's cores.
+// If a chunk ends inside a yarn, its last ring is also the first ring of the next chunk.
 typedef struct texere_plan texere_plan;
 
-// A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
-// call while another thread's is under way fails with TEXERE_ARGUMENT.
+// A device that makes pictures, and the yarns that the pictures show. One thread at a time may use
+// it: a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
 typedef struct texere_renderer texere_renderer;
 
-// A call that takes long, as other threads see it: how far it has come, and whether it is to end.
-// One run may be given to one call after another; each starts it at 0.
+// The progress of a call that takes long, and whether the call is to end. Other threads read the
+// one and set the other. A run may be given to one call after another; the progress begins at 0 in
+// each.
 typedef struct texere_run texere_run;
 
-// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
-// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
+// two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
+// older one.
 //
-// One thread at a time may use a session. A call while another thread's is under way fails with
-// TEXERE_ARGUMENT.
+// One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
+// another thread is using it.
 typedef struct texere_session texere_session;
 
 // Yarns: their control points, sections and materials.
 typedef struct texere_yarns texere_yarns;
 
-// What can be chosen about a mesh. `texere_settings_default` fills it in.
+// The settings of a mesh. `texere_settings_default` fills it in.
 typedef struct texere_settings {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Points that are inserted between two control points, from 0.
+  // How many points are inserted between two control points, 0 or more.
   uint32_t subdivisions;
-  // Sides of the tubes, from 3.
+  // How many sides the tubes have, 3 or more.
   uint32_t sides;
-  // A number that begins with TEXERE_FRAME.
+  // A constant whose name begins with TEXERE_FRAME.
   uint32_t frame;
-  // A number that begins with TEXERE_TOPOLOGY.
+  // A constant whose name begins with TEXERE_TOPOLOGY.
   uint32_t topology;
   // 1 if the ends of yarns are closed, else 0.
   uint32_t caps;
@@ -314,103 +342,108 @@ typedef struct texere_settings {
   float quantum_mm;
 } texere_settings;
 
-// What a check has found.
+// The result of a check.
 typedef struct texere_diagnosis {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // 1 if there is no fault, else 0.
   uint32_t clean;
   // "clean", or the faults in one phrase, such as "pierces itself, folds": UTF-8 that ends with
   // a zero byte, valid until the check is freed.
   const char *words;
-  // Contacts that are nearer than this pierce.
+  // The clearance below which two yarns count as piercing one another.
   double touching;
-  // How near yarns come to one another at the least: 1 where they just touch. Infinite where
-  // none come near; NaN where all places are crowded.
+  // The least clearance, which says how near yarns come to one another: 1 if they just touch,
+  // less if they pierce. Infinite if no yarns come near one another; NaN if all places where
+  // they do are too crowded to be measured.
   double clearance;
-  // How many places there are where two yarns come near one another.
+  // How many contacts there are: places where two yarns come near one another.
   uint64_t contacts;
-  // How many of the contacts are nearer than 1 by more than 0.001.
+  // How many contacts have a clearance below 1 by more than 0.001.
   uint64_t below_one;
-  // The radius of the tightest bend in radii of the yarn. Infinite where all yarns are straight.
+  // The radius of the tightest bend over how far the yarn's section reaches into it, which is
+  // the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
   double bend;
-  // The least width of a tube of the mesh half way between two rings, in radii of the yarn.
+  // The least width of a tube of the mesh half way between two rings, as a share of the width on
+  // the rings.
   double width;
   // How many triangles of the mesh face inwards.
   uint64_t inwards;
-  // How many faults `texere_check_fault` gives: 100 of each kind at most.
+  // How many faults `texere_check_fault` writes. At most 100 of a kind are listed.
   uint64_t faults;
-  // How many warnings `texere_check_warning` gives.
+  // How many warnings `texere_check_warning` lends.
   uint64_t warnings;
 } texere_diagnosis;
 
 // A fault of a cloth.
 typedef struct texere_fault {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // A number that begins with TEXERE_FAULT; it says what `value` is.
+  // A constant whose name begins with TEXERE_FAULT; it says what `value` is.
   uint32_t kind;
-  // How bad it is. NaN where the kind has no value.
+  // How bad the fault is, as its kind says. NaN if the kind has no value.
   double value;
-  // Where it is, mm. NaN where it has no one place.
+  // Where the fault is, mm. NaN if it has no single place.
   double position[3];
-  // The fault in words, with the threads that it is of: UTF-8 that ends with a zero byte, valid
+  // The fault in words, with the names of its threads: UTF-8 that ends with a zero byte, valid
   // until the check is freed.
   const char *words;
 } texere_fault;
 
-// How the yarns of a cloth came to rest.
+// Whether the yarns of a cloth came to rest.
 typedef struct texere_report {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // TEXERE_PLACED, TEXERE_AT_REST, TEXERE_NOT_AT_REST or TEXERE_REFUSED.
   uint32_t outcome;
   // The outcome in words, UTF-8 that ends with a zero byte, valid until the cloth is freed.
   const char *words;
-  // How many warnings `texere_cloth_warning` gives.
+  // How many warnings the cloth has: `texere_cloth_warning` lends them.
   uint64_t warnings;
 } texere_report;
 
-// Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
-// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid
-// until the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+// Gives the library the bytes of a file that a design names, such as a picture: sets `*data` and
+// `*size`, and returns 0. Any other return value says that there is no such file. The bytes have
+// to stay valid until the function that was given this callback returns. `path` is UTF-8 of
+// `path_length` bytes.
 typedef int32_t (*texere_file_callback)(void *user,
                                         const char *path,
                                         size_t path_length,
                                         const uint8_t **data,
                                         size_t *size);
 
-// What a device is. Strings end with a zero byte and are valid until the device is freed.
+// A description of a device. Its strings end with a zero byte and are valid until the device is
+// freed.
 typedef struct texere_device_info {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if yarns can come to rest on it, else 0.
+  // 1 if yarns of all structures can come to rest on it, else 0.
   uint32_t settles;
-  // The name that opens it, such as "cpu" or "opencl:0".
+  // The name that opens the device, such as "cpu" or "opencl:0".
   const char *name;
-  // The device as its maker calls it.
+  // The maker's name of the device.
   const char *device;
   // Its driver, with the version.
   const char *driver;
-  // Bytes of memory that it has; 0 where it does not say so.
+  // How much memory the device has, bytes; 0 if it is not known.
   uint64_t memory_bytes;
 } texere_device_info;
 
-// What a yarn is made of, apart from its control points.
+// Properties of a yarn apart from its control points.
 typedef struct texere_yarn {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Its material, from 0.
+  // The number of its material, counted from 0.
   uint32_t material;
-  // Its section, from 0.
+  // The number of its section, counted from 0.
   uint32_t section;
   // 1 if its last control point joins up with its first, else 0.
   uint32_t closed;
-  // Its twist, radians a mm; positive is Z twist.
+  // Its twist, radians per mm; positive is Z twist.
   float twist;
 } texere_yarn;
 
-// A place on the centreline of a yarn, mm.
+// A control point of a yarn, mm.
 typedef struct texere_point {
   // Along the weft or the courses.
   float x;
@@ -420,19 +453,20 @@ typedef struct texere_point {
   float z;
   // Half the width of the yarn, across the cloth.
   float half_width;
-  // Half the height of the yarn, out of the cloth. A round yarn has its half width.
+  // Half the height of the yarn, out of the cloth. In a round yarn it equals `half_width`.
   float half_height;
 } texere_point;
 
-// What yarns are made of.
+// A material of yarns.
 typedef struct texere_material {
   // Its name, UTF-8.
   const char *name;
-  // Bytes of the name.
+  // Length of the name, bytes.
   size_t name_length;
-  // Linear density, tex; 0 where it is not known.
+  // Linear density, tex; 0 if it is not known.
   float tex;
-  // Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+  // Length of the fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show
+  // them.
   float hairiness;
   // Red, green and blue, sRGB.
   uint8_t srgb[3];
@@ -442,26 +476,27 @@ typedef struct texere_material {
 
 // A place in a design's file.
 typedef struct texere_place {
-  // The file's name, UTF-8 that ends with a zero byte; null where the error has no place. It is
-  // valid until the next call of this thread fails.
+  // The file's name, UTF-8 that ends with a zero byte; null if the error has no place. The name
+  // is valid until the next call of this thread fails.
   const char *file;
-  // The line, from 1; 0 where it is not known.
+  // The line, counted from 1; 0 if it is not known.
   uint64_t line;
-  // The column, in letters from 1; 0 where it is not known.
+  // The column, in letters counted from 1; 0 if it is not known.
   uint64_t column;
 } texere_place;
 
 // Whether and how the yarns of a design come to rest.
 typedef struct texere_finish {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // 1 if the yarns come to rest, 0 if they stay where the structure places them.
   uint32_t settle;
-  // Of knits: a number that begins with TEXERE_LENGTH.
+  // Of knits: a constant whose name begins with TEXERE_LENGTH.
   uint32_t length_kind;
-  // What the kind of length says.
+  // A number whose meaning the constant in `length_kind` says.
   float length;
-  // Of knits: distance of two plates that press the cloth, 0.001 to 1000 mm; 0: no plates.
+  // Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+  // 0: no plates.
   float press_mm;
   // Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
   float warp_tension;
@@ -469,73 +504,74 @@ typedef struct texere_finish {
   float weft_tension;
   // Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
   float calender;
-  // A number that begins with TEXERE_STRETCH.
+  // A constant whose name begins with TEXERE_STRETCH.
   uint32_t stretch;
-  // The most passes of either form of a knit, 1 to 1000000.
+  // Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
   uint32_t passes;
-  // How many times as long stretched cloth becomes, 0.5 to 2.
+  // The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
   double stretch_by;
 } texere_finish;
 
-// A stretch of vertices and indices that an update has made again. Both count from the start of
+// A range of vertices and a range of indices that an update has made again. Both are numbered in
 // the whole mesh.
 typedef struct texere_change {
-  // The first vertex.
+  // The number of the first vertex.
   uint64_t first_vertex;
   // How many vertices there are.
   uint64_t vertex_count;
-  // The first index.
+  // The number of the first index.
   uint64_t first_index;
-  // How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+  // How many indices there are: 0 unless the topology is TEXERE_TOPOLOGY_INDEXED.
   uint64_t index_count;
 } texere_change;
 
-// What an update has made again.
+// The parts of the mesh that an update has made again.
 typedef struct texere_update {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-  // and places of everything may be others. Else 0.
+  // 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
+  // yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+  // numbers. Else 0.
   uint32_t anew;
-  // The stretches that were made again, valid until the next update of this live cloth, or until
-  // it is freed.
+  // The ranges that were made again. They are valid until the next update of this live cloth, or
+  // until it is freed.
   const struct texere_change *changes;
-  // How many there are.
+  // How many changes there are.
   uint64_t change_count;
 } texere_update;
 
 // Sizes of a mesh.
 typedef struct texere_counts {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Zero.
   uint32_t reserved;
-  // Rings of all yarns.
+  // How many rings all yarns have together.
   uint64_t rings;
-  // Vertices. A ring at which two chunks meet counts twice.
+  // How many vertices. The vertices of a ring at which two chunks meet count twice.
   uint64_t vertices;
   // Indices.
   uint64_t indices;
-  // Triangles that the draws draw.
+  // How many triangles the draws draw.
   uint64_t triangles;
   // Draws.
   uint64_t draws;
-  // Chunks that the mesh is made in.
+  // How many chunks the mesh is made in.
   uint64_t chunks;
 } texere_counts;
 
-// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
+// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise as seen
 // from outside.
 typedef struct texere_draw {
-  // The first of its indices.
+  // The number of its first index in the mesh.
   uint64_t first_index;
-  // How many indices it has, three a triangle.
+  // How many indices it has, three for each triangle.
   uint64_t index_count;
   // What to add to an index to get the number of a vertex.
   uint64_t base_vertex;
-  // How many vertices from `base_vertex` on its indices may refer to.
+  // How many vertices the indices of the draw may refer to, from `base_vertex` on.
   uint64_t vertex_count;
-  // The yarn, from 0.
+  // The yarn, counted from 0.
   uint32_t yarn;
   // Zero.
   uint32_t reserved;
@@ -545,13 +581,13 @@ typedef struct texere_draw {
 typedef struct texere_vertex {
   // Position, mm.
   float position[3];
-  // Unit normal, out of the yarn.
+  // Unit normal. It points out of the yarn.
   float normal[3];
 } texere_vertex;
 
-// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+// Measures of a cloth. A measure that the cloth does not have, or that can't be known, is NaN.
 typedef struct texere_measures {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Wales of a knit; 0 of woven cloth.
   uint32_t wales;
@@ -561,11 +597,11 @@ typedef struct texere_measures {
   uint32_t materials;
   // Loops of a knit; 0 of woven cloth.
   uint64_t loops;
-  // Width of the cloth, mm.
+  // Width of the cloth, along the weft or the courses, mm.
   double width;
-  // Height of the cloth, mm.
+  // Height of the cloth, along the warp or the wales, mm.
   double height;
-  // Thickness without load, mm.
+  // Thickness of the cloth without load, mm.
   double thickness;
   // Length of all yarn, mm.
   double length;
@@ -573,53 +609,56 @@ typedef struct texere_measures {
   double areal_weight;
   // Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
   double warp_crimp;
-  // Crimp of the weft.
+  // Crimp of the weft, in the same way.
   double weft_crimp;
   // The share of the cloth's width that ends cover, from 0 to 1. NaN of a knit.
   double warp_cover;
-  // The share of the cloth's length that picks cover.
+  // The share of the cloth's height that picks cover, from 0 to 1. NaN of a knit.
   double weft_cover;
-  // The share of the cloth that is covered.
+  // The share of the cloth's area that ends and picks cover together, from 0 to 1. NaN of a
+  // knit.
   double cover;
-  // Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
-  // of a knit, and unless every material that is used has a tex.
+  // Peirce's cover factor of the warp: ends per inch over the square root of the cotton count.
+  // NaN of a knit, and unless every material that is used has a tex.
   double warp_cover_factor;
-  // Peirce's cover factor of the weft.
+  // Peirce's cover factor of the weft, in the same way.
   double weft_cover_factor;
-  // Peirce's cover factor of the cloth.
+  // Peirce's cover factor of the cloth, K1 + K2 - K1 K2 / 28, where K1 and K2 are the factors of
+  // warp and weft.
   double cover_factor;
-  // Length of yarn in a loop, mm. NaN of woven cloth.
+  // Mean length of yarn in a loop, mm. NaN of woven cloth.
   double loop_length;
-  // Loops to the square centimetre. NaN of woven cloth.
+  // Loops per square centimetre. NaN of woven cloth.
   double loops_per_cm2;
-  // The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
-  // are used have one and the same tex.
+  // Tightness factor: the square root of the tex over the loop length in cm. NaN of woven cloth,
+  // and unless all yarns that are used have the same tex.
   double tightness;
 } texere_measures;
 
-// Values that lie in the caller's memory: in an array of their own, or as one member of the
-// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+// Values that lie in the caller's memory: in an array of their own, or as one member of each
+// struct of an array. `data` and `stride` are multiples of the alignment of the values.
 typedef struct texere_view {
   // The first value.
   void *data;
-  // Bytes from `data` on that belong to the view: at least up to the end of the last value.
+  // How many bytes from `data` on belong to the view: at least up to the end of the last value.
   uint64_t size;
   // Bytes from one value to the next: at least the size of a value.
   uint64_t stride;
 } texere_view;
 
-// Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
-// overlap.
+// Where in the caller's memory a mesh is written: arrays of its own, or members of the caller's
+// structs. No two values may overlap.
 typedef struct texere_mesh_arrays {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Zero.
   uint32_t reserved;
   // Positions, mm: three `float` for each vertex.
   struct texere_view positions;
-  // Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+  // Unit normals, which point out of the yarn: three `float` for each vertex. With null `data`
+  // they are left out.
   struct texere_view normals;
-  // Indices, a `uint32_t` each. Null `data`: left out.
+  // Indices, a `uint32_t` each. With null `data` they are left out.
   struct texere_view indices;
 } texere_mesh_arrays;
 
@@ -635,19 +674,21 @@ typedef struct texere_ray {
 typedef struct texere_hit {
   // 1 if the ray hits anything; else 0, and everything else is 0 as well.
   uint32_t found;
-  // The yarn, from 0.
+  // The yarn, counted from 0.
   uint32_t yarn;
-  // The ring before the triangle, from the start of the yarn.
+  // The ring before the triangle that is hit, counted from 0 at the start of the yarn.
   uint32_t ring;
-  // The corner of the section before the triangle, from 0; 0 on a cap.
+  // The corner of the section before the triangle, counted from 0; 0 on a cap.
   uint32_t side;
-  // A number that begins with TEXERE_CAP.
+  // A constant whose name begins with TEXERE_CAP.
   uint32_t cap;
-  // The control interval of the yarn, from 0: that between this control point and the next.
+  // The interval of the yarn, counted from 0: interval n lies between control points n and n +
+  // 1.
   uint32_t interval;
-  // How far along the interval, from 0 to 1.
+  // Position along the interval, from 0 to 1.
   double t;
-  // Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+  // Distance from the start of the ray, in lengths of its direction: in mm if the direction has
+  // length 1.
   double distance;
   // The point that is hit, mm.
   double position[3];
@@ -655,48 +696,52 @@ typedef struct texere_hit {
 
 // What a picture shows, and how. `texere_picture_default` fills it in.
 typedef struct texere_picture {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Pixels across.
   uint32_t width;
   // Pixels down.
   uint32_t height;
-  // Pixels that are drawn for each pixel of the picture, each way, from 1; each of them has four
-  // samples.
+  // How many pixels are drawn for each pixel of the picture, in each direction, 1 or more. Each
+  // pixel that is drawn has four samples.
   uint32_t supersampling;
-  // 1 if fibres that stand off yarns are drawn, else 0.
+  // 1 if fibres that stand off yarns are drawn, else 0. Cuts never show them, nor do pictures in
+  // which threads are narrower than four pixels.
   uint32_t hairs;
-  // A number that begins with TEXERE_BACKGROUND.
+  // A constant whose name begins with TEXERE_BACKGROUND.
   uint32_t background;
-  // A colour of the background, sRGB.
+  // The colour of the background with TEXERE_BACKGROUND_COLOR, sRGB.
   uint8_t color[3];
   // Zero.
   uint8_t reserved;
-  // A number that begins with TEXERE_VIEW.
+  // A constant whose name begins with TEXERE_VIEW.
   uint32_t view;
   // 1 if the cloth is turned over sideways, so that its back is seen, else 0.
   uint32_t turned_over;
-  // Turn about the cloth's middle, radians, counter-clockwise as seen from above.
+  // With TEXERE_VIEW_OBLIQUE: turn of the eye about the cloth's middle, radians,
+  // counter-clockwise as seen from above.
   float turn;
-  // A point of the cloth, x and y, mm.
+  // With TEXERE_VIEW_CLOSE_UP and cuts: a point of the cloth, x and y, mm.
   float at[2];
-  // What the picture's width shows, mm.
+  // With TEXERE_VIEW_CLOSE_UP and cuts: how much of the cloth the picture's width shows, mm.
   float width_mm;
-  // The eye, mm.
+  // With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the eye, mm.
   float eye[3];
-  // The point in the middle of the picture, mm.
+  // With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the point in the middle of the picture, mm.
   float target[3];
-  // What is up in the picture, of any length.
+  // With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the direction that is up in the picture, of
+  // any length.
   float up[3];
-  // From the picture's lower to its upper edge, radians, 0.0001 to 3.1.
+  // With TEXERE_VIEW_EYE: the angle from the picture's lower to its upper edge, radians, 0.0001
+  // to 3.1.
   float field_of_view;
-  // What the picture's height shows, mm.
+  // With TEXERE_VIEW_PARALLEL: how much the picture's height shows, mm.
   float height_mm;
 } texere_picture;
 
 // A chunk of a plan, and where it lies in the mesh.
 typedef struct texere_chunk {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Zero.
   uint32_t reserved;
@@ -706,9 +751,10 @@ typedef struct texere_chunk {
   uint64_t vertex_count;
   // The number of its first index in the mesh.
   uint64_t first_index;
-  // How many indices it has. They count from its first vertex.
+  // How many indices it has. The indices count from its first vertex.
   uint64_t index_count;
-  // Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+  // Its draws. Their indices and vertices are numbered in the whole mesh. They are valid until
+  // the plan is freed.
   const struct texere_draw *draws;
   // How many draws it has.
   uint64_t draw_count;
@@ -724,23 +770,24 @@ typedef struct texere_extent {
 
 // What a picture shows at a point.
 typedef struct texere_seen {
-  // The place on the yarn's surface, mm; how far it is from the eye follows.
+  // The place on the yarn's surface, mm.
   double position[3];
-  // The yarn, from 0.
+  // The yarn, counted from 0.
   uint32_t yarn;
-  // 1 where a yarn is seen, else 0.
+  // 1 if a yarn is seen, else 0.
   uint32_t is_yarn;
 } texere_seen;
 
-// Objects that a session works with, as numbers: cast each to the type of its interface.
+// The objects of OpenCL or Vulkan that a session works with, as numbers. A program casts each to
+// the type that its description names.
 typedef struct texere_native {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
   uint32_t kind;
   // The `VkInstance`; 0 with OpenCL.
   uint64_t instance;
-  // The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+  // The `VkPhysicalDevice`; 0 with OpenCL, where the command queue knows its device.
   uint64_t physical_device;
   // The `VkDevice` or `cl_context`.
   uint64_t device;
@@ -754,26 +801,27 @@ typedef struct texere_native {
 
 // A part of a buffer on a device.
 typedef struct texere_device_buffer {
-  // The `cl_mem` or `VkBuffer`; 0 where there is none.
+  // The `cl_mem` or `VkBuffer`; 0 if there are no values.
   uint64_t buffer;
-  // Where the values begin, bytes.
+  // Where in the buffer the values begin, bytes.
   uint64_t offset;
-  // How many bytes the values have.
+  // Size of all values, bytes.
   uint64_t size;
 } texere_device_buffer;
 
 // The mesh of a chunk on its device.
 //
-// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
-// that reads them waits for it.
+// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers. A command of
+// the program that reads the buffers has to wait for that event.
 //
-// With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
-// queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
-// call `texere_session_wait` first. No other thread may call the library with the same device
-// while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
-// the source of a transfer, indices as an index or storage buffer or as that source.
+// With Vulkan, the commands that write the buffers have been submitted to the queue when the
+// buffers are lent. A command on that queue needs a memory barrier from the writes of compute
+// shaders to its own reads. Before it uses another queue, a program calls `texere_session_wait`.
+// While the program submits to the queue, no other thread may call the library with the same
+// device. The buffer of vertices may be used as a vertex buffer, a storage buffer or the source of
+// a transfer; that of indices as an index buffer, a storage buffer or the source of a transfer.
 typedef struct texere_device_mesh {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
   uint32_t kind;
@@ -785,19 +833,20 @@ typedef struct texere_device_mesh {
   uint64_t ready;
 } texere_device_mesh;
 
-// A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
-// draws until the plan is freed.
+// A piece of a mesh: vertices, or indices. The piece is valid until the callback returns; its
+// draws are valid until the plan is freed.
 typedef struct texere_piece {
-  // Bytes of this struct, which the library sets.
+  // Size of this struct, bytes. The library sets it.
   uint32_t struct_size;
   // Zero.
   uint32_t reserved;
-  // The chunk that the piece is of, from 0.
+  // The chunk that the piece belongs to, counted from 0.
   uint64_t chunk;
-  // The number of the chunk's first vertex in the mesh: what to add to an index to get the
-  // number of a vertex.
+  // The number of the chunk's first vertex in the mesh. With TEXERE_TOPOLOGY_INDEXED it is what
+  // to add to an index to get the number of a vertex; with TEXERE_TOPOLOGY_SHARED that is
+  // `base_vertex` of each draw.
   uint64_t base_vertex;
-  // The draws of the chunk, whose numbers are those of the whole mesh.
+  // The draws of the chunk. Their indices and vertices are numbered in the whole mesh.
   const struct texere_draw *draws;
   // How many draws the chunk has.
   uint64_t draw_count;
@@ -815,31 +864,34 @@ typedef struct texere_piece {
   uint64_t index_count;
 } texere_piece;
 
-// Takes a piece of a mesh. Anything else than 0 ends the call that was given this callback.
+// Takes a piece of a mesh. It returns 0 to go on; any other value ends the call that was given
+// this callback.
 typedef int32_t (*texere_piece_callback)(void *user, const struct texere_piece *piece);
 
-// The movement of a guide at one course: from a needle space, in front of the needles, to another.
-// Space n lies between the needles n - 1 and n.
+// The lap of a guide at one course: in front of the needles, the guide moves from one needle space
+// to another. Space n lies between needle n - 1 and needle n.
 typedef struct texere_lap {
   // The needle space before the overlap, 0 to 512.
   int32_t from;
-  // The needle space after it, 0 to 512, and two needles away at most. No needle: an inlay.
+  // The needle space after the overlap, 0 to 512, and at most two needles from `from`. Where it
+  // equals `from`, the yarn is laid in and makes no loop.
   int32_t to;
 } texere_lap;
 
 // A guide bar.
 typedef struct texere_bar {
-  // Its chain: laps, course after course from the first one knitted.
+  // Its chain: a lap for each course, from the first course knitted on.
   const struct texere_lap *laps;
   // How many laps, 1 to 4096. After the last one the first one follows again.
   uint64_t lap_count;
-  // The yarn of each guide, from 0, or TEXERE_NO_YARN. Null and 0: yarn 0 for all.
+  // The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
+  // all guides have yarn 0.
   const uint32_t *threading;
-  // How many guides until the threading begins again.
+  // How many guides `threading` is for. After the last one it begins again.
   uint64_t guide_count;
-  // Run-in: length of yarn for a rack of 480 courses, mm; 0 leaves it to the bar.
+  // Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
   double run_in_mm;
-  // Needles by which the whole bar is moved towards the high numbers.
+  // By how many needles the whole bar is moved towards the high numbers.
   int32_t offset;
   // Zero.
   uint32_t reserved;
@@ -847,9 +899,9 @@ typedef struct texere_bar {
 
 // A yarn of a knit.
 typedef struct texere_knit_yarn {
-  // Its diameter, mm; `texere_diameter` gives it for a yarn count.
+  // Its diameter, mm. `texere_diameter` works it out from a linear density in tex.
   double diameter_mm;
-  // Twist, radians a mm; positive is Z twist.
+  // Twist, radians per mm; positive is Z twist.
   float twist;
   // The number of its material, from 0.
   uint32_t material;
@@ -859,28 +911,28 @@ typedef struct texere_knit_yarn {
   uint32_t reserved;
 } texere_knit_yarn;
 
-// The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+// The cross-section of yarns. Every shape except a polygon has the area of the round yarn.
 typedef struct texere_section {
-  // A number that begins with TEXERE_SECTION.
+  // A constant whose name begins with TEXERE_SECTION.
   uint32_t shape;
-  // How many plies or corners.
+  // How many plies of TEXERE_SECTION_LOBED, or corners of TEXERE_SECTION_POLYGON.
   uint32_t count;
   // Width over height, 0.05 to 20.
   float aspect;
-  // What the shape says.
+  // A number whose meaning the constant of the shape says.
   float form;
-  // Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
-  // has two numbers a corner.
+  // The corners of a polygon, counter-clockwise: for each corner its x and its y, in radii of
+  // the yarn.
   const float *corners;
 } texere_section;
 
-// Materials and sections that yarns refer to by their number, from 0.
+// Materials and sections. Yarns refer to them by their number, counted from 0.
 typedef struct texere_looks {
-  // Materials. Null and 0: undyed yarn.
+  // The materials. Null with a `material_count` of 0: one material, undyed yarn.
   const struct texere_material *materials;
   // How many materials.
   uint64_t material_count;
-  // Sections. Null and 0: a circle.
+  // The sections. Null with a `section_count` of 0: one section, a circle.
   const struct texere_section *sections;
   // How many sections.
   uint64_t section_count;
@@ -888,19 +940,20 @@ typedef struct texere_looks {
 
 // A warp knit as the caller's arrays.
 typedef struct texere_warp_knit {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // A number that begins with TEXERE_CELLS.
+  // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
-  // Wales, a multiple of those after which all bars begin again.
+  // How many wales: a multiple of the number after which the threadings of all bars begin again.
   uint32_t wales;
-  // Courses, a multiple of those after which all bars begin again.
+  // How many courses: a multiple of the number after which the chains of all bars begin again.
   uint32_t courses;
-  // Copies of the whole along the courses and along the wales, each from 1.
+  // How many copies of these wales and courses lie along the courses, and how many along the
+  // wales; each 1 or more.
   uint32_t copies[2];
   // What the design is called, UTF-8.
   const char *name;
-  // Bytes of the name.
+  // Length of the name, bytes.
   size_t name_length;
   // The guide bars, the front one first.
   const struct texere_bar *bars;
@@ -910,75 +963,83 @@ typedef struct texere_warp_knit {
   const struct texere_knit_yarn *yarns;
   // How many yarns.
   uint64_t yarn_count;
-  // From one wale to the next, mm.
+  // Distance from one wale to the next, mm.
   double wale_mm;
-  // From one course to the next, mm.
+  // Distance from one course to the next, mm.
   double course_mm;
-  // What the yarns refer to.
+  // The materials and sections that the yarns refer to.
   struct texere_looks looks;
 } texere_warp_knit;
 
 // The stitch in one wale of one course.
 typedef struct texere_stitch {
-  // A number that begins with TEXERE_STITCH.
+  // A constant whose name begins with TEXERE_STITCH.
   uint32_t kind;
-  // Needles to the right, negative to the left, 256 at most, by which the loop moves.
+  // By how many needles the loop moves, -256 to 256: positive to the right, negative to the
+  // left. Only the two kinds that begin with TEXERE_STITCH_MOVED read it.
   int32_t moved;
 } texere_stitch;
 
 // A weft knit as the caller's arrays: one repeat of stitches, and its copies.
 typedef struct texere_weft_knit {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Beds of needles, 1 or 2.
   uint32_t beds;
-  // A number that begins with TEXERE_CELLS.
+  // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
-  // Copies of the repeat along the courses and along the wales, each from 1.
+  // How many copies of the repeat lie along the courses, and how many along the wales; each 1 or
+  // more.
   uint32_t copies[2];
   // Zero.
   uint32_t reserved;
   // What the design is called, UTF-8.
   const char *name;
-  // Bytes of the name.
+  // Length of the name, bytes.
   size_t name_length;
   // Wales of the repeat, 1 to 65536.
   uint64_t wales;
   // Courses of the repeat, 1 to 65536.
   uint64_t courses;
-  // The stitches, course after course from the first (the bottom one), each from left to right
-  // as seen from the technical face: `wales` times `courses` of them.
+  // The stitches, `wales` times `courses` of them: course after course from the first, which is
+  // the bottom one, and in each course from left to right as seen from the technical face.
   const struct texere_stitch *stitches;
-  // The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
-  // all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+  // The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
+  // counted from 0. After the last one the first one follows again. Null with a `turn_count` of
+  // 0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
+  // repeated upwards until it is.
   const uint32_t *turn;
-  // How many yarns the turn has.
+  // How many numbers `turn` has.
   uint64_t turn_count;
   // The yarns.
   const struct texere_knit_yarn *yarns;
   // How many yarns.
   uint64_t yarn_count;
-  // From one wale to the next, mm.
+  // Distance from one wale to the next, mm.
   double wale_mm;
-  // From one course to the next, mm.
+  // Distance from one course to the next, mm.
   double course_mm;
-  // The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+  // The mean length of yarn in a loop that settling aims for, mm. 0: loops take the length that
+  // they need.
   double loop_length_mm;
-  // What the yarns refer to.
+  // The materials and sections that the yarns refer to.
   struct texere_looks looks;
 } texere_weft_knit;
 
 // An end or a pick.
 typedef struct texere_thread {
-  // Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+  // Width of the strip of cloth that the thread takes, mm. The distance of two neighbours is
+  // half the sum of their spacings.
   double spacing_mm;
-  // Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+  // Diameter that the yarn has when it is round, mm. `texere_diameter` works it out from a
+  // linear density in tex.
   double diameter_mm;
   // Width over height in the cloth, 0.1 to 10; 0 stands for 1, which is round.
   float flatness;
-  // Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+  // Stiffness against bending when the yarns come to rest, 0.01 to 100; 1 for cotton yarn of the
+  // same diameter. 0 stands for 1.
   float stiffness;
-  // Twist, radians a mm; positive is Z twist.
+  // Twist, radians per mm; positive is Z twist.
   float twist;
   // The number of its material, from 0.
   uint32_t material;
@@ -990,43 +1051,44 @@ typedef struct texere_thread {
 
 // Woven cloth as the caller's arrays.
 typedef struct texere_woven {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // A number that begins with TEXERE_SHAPE.
+  // A constant whose name begins with TEXERE_SHAPE.
   uint32_t shape;
-  // A number that begins with TEXERE_RELIEF.
+  // A constant whose name begins with TEXERE_RELIEF.
   uint32_t relief;
-  // 1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+  // 1 if the weft turns back round the outermost ends, 0 if each pick is cut at both edges.
   uint32_t selvedge;
-  // A number that begins with TEXERE_CRIMP.
+  // A constant whose name begins with TEXERE_CRIMP.
   uint32_t crimp;
   // The warp's share of the crimp, 0 (straight ends) to 1 (straight picks), with
   // TEXERE_CRIMP_SHARE.
   float warp_share;
   // What the design is called, UTF-8.
   const char *name;
-  // Bytes of the name.
+  // Length of the name, bytes.
   size_t name_length;
   // How many ends.
   uint64_t ends;
   // How many picks.
   uint64_t picks;
-  // A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
-  // the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
-  // second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
-  // bytes, and `stride` bytes lie between the beginnings of two rows.
+  // A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
+  // bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
+  // of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
+  // 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
   struct texere_view drawdown;
   // The ends from the left: `ends` of them.
   const struct texere_thread *warp;
   // The picks from the bottom: `picks` of them.
   const struct texere_thread *weft;
-  // What the threads refer to.
+  // The materials and sections that the threads refer to.
   struct texere_looks looks;
 } texere_woven;
 
-// Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
-// the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
-// that was given this callback. `data` is valid until the callback returns.
+// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
+// in order, except that at the end earlier bytes may come again with values that are only known
+// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
+// is valid until the callback returns.
 typedef int32_t (*texere_write_callback)(void *user,
                                          uint64_t offset,
                                          const uint8_t *data,
@@ -1034,53 +1096,57 @@ typedef int32_t (*texere_write_callback)(void *user,
 
 // Yarns as the caller's arrays.
 typedef struct texere_yarn_arrays {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
   // Tension of the splines through the control points, from 0 to below 1; 0 is usual.
   float tension;
   // How many yarns there are.
   uint64_t yarns;
-  // Where the points of each yarn begin, and behind them how many points there are in all:
-  // `yarns + 1` numbers, the first of which is 0.
+  // `yarns + 1` numbers: for each yarn the number of its first point, counted from 0 in
+  // `points`, and at the end how many points there are in all.
   const uint64_t *offsets;
-  // The points of all yarns, yarn after yarn.
+  // The control points of all yarns, yarn after yarn.
   const struct texere_point *points;
-  // For each yarn 1 if its last point joins up with its first, else 0. Null: all are open.
+  // For each yarn 1 if its last point joins up with its first, else 0. Null: no yarn is closed.
   const uint8_t *closed;
-  // For each yarn its twist, radians a mm; positive is Z twist. Null: none has twist.
+  // For each yarn its twist, radians per mm; positive is Z twist. Null: no yarn is twisted.
   const float *twist;
 } texere_yarn_arrays;
 
-// How much yarns hold.
+// How many yarns and control points a handle of yarns has.
 typedef struct texere_yarn_counts {
-  // Bytes of this struct, which the caller sets.
+  // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Tension of their splines.
+  // Tension of the splines through the control points.
   float tension;
   // How many yarns there are.
   uint64_t yarns;
-  // How many control points they have in all.
+  // How many control points all yarns have together.
   uint64_t points;
 } texere_yarn_counts;
 
 // Where on its yarn a vertex lies, for shaders and textures.
 typedef struct texere_attribute {
-  // The yarn, from 0.
+  // The yarn, counted from 0.
   uint32_t yarn;
-  // The angle round the section from its first corner, radians. It turns with the twist.
+  // The angle round the section from its first corner, radians. The first corner turns with the
+  // yarn's twist.
   float angle;
   // The length of the yarn from its start to the vertex's ring, mm.
   float along;
-  // The unit tangent of the yarn there.
+  // The unit tangent of the yarn at that ring.
   float tangent[3];
 } texere_attribute;
 
-// A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+// A vertex in 12 bytes, half the size of `texere_vertex`. docs/CONVENTIONS.md says how it is
+// unpacked.
 typedef struct texere_packed_vertex {
-  // The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
-  // these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+  // The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
+  // bits of each coordinate are kept. The two words are one number of 64 bits, the first word
+  // its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
   uint32_t position[2];
-  // The normal on an octahedron, in steps of 1/32767.
+  // The unit normal, mapped to the octahedron and from there to a square: two coordinates from
+  // -1 to 1, in steps of 1/32767.
   int16_t normal[2];
 } texere_packed_vertex;
 
@@ -1092,7 +1158,8 @@ typedef struct texere_ring {
   float half_width;
   // Unit tangent.
   float tangent[3];
-  // Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+  // Turn of the section about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in 1/2^32 of
+  // a full turn.
   uint32_t roll;
   // Half the height of the yarn, mm.
   float half_height;
@@ -1100,7 +1167,8 @@ typedef struct texere_ring {
   float width_growth;
   // Growth of the half height along the yarn, mm per mm.
   float height_growth;
-  // Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+  // Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
+  // 1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
   uint32_t lean;
 } texere_ring;
 
@@ -1108,43 +1176,44 @@ typedef struct texere_ring {
 extern "C" {
 #endif // __cplusplus
 
-// The number of the binary interface of this library: `TEXERE_ABI` of its header.
+// The number of the binary interface of the loaded library: TEXERE_ABI of the header that belongs
+// to it.
 uint32_t texere_abi(void);
 
 // The version of this library, such as "0.1.0". The string ends with a zero byte and is valid as
 // long as the library is loaded.
 const char *texere_version(void);
 
-// Checks a cloth: measures how near its yarns come to one another and how tightly they bend, looks
-// for faults, and for single changes of the design that cure them. A mesh with `settings` is
-// looked at, too; they may be null: `texere_settings_default` says what holds then. Yarns that
-// come short of touching by more than the share `accuracy` pierce: TEXERE_ACCURACY is usual. `run`
-// may be null.
+// Checks a cloth: measures how near its yarns come to one another and how tightly they bend, and
+// looks for faults and for single changes of the design that cure them. It also looks for faults
+// of a mesh with `settings`, which may be null: then those of `texere_settings_default` apply. Two
+// yarns pierce one another if they come short of touching by more than the share `accuracy`.
+// TEXERE_ACCURACY is usual. `run` may be null.
 //
-// A cloth with faults is no failure of the call. It fails with TEXERE_ARGUMENT for settings out of
-// range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED where `run`
-// was cancelled.
+// The call succeeds for a cloth with faults. It fails with TEXERE_ARGUMENT for settings out of
+// range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED if `run` was
+// cancelled.
 enum texere_status texere_check_new(const struct texere_cloth *cloth,
                                     const struct texere_settings *settings,
                                     double accuracy,
                                     const struct texere_run *run,
                                     struct texere_check **out);
 
-// Writes what a check has found. The caller has set `diagnosis->struct_size`.
+// Writes the result of a check. The caller sets `diagnosis->struct_size` before the call.
 enum texere_status texere_check_diagnosis(const struct texere_check *check,
                                           struct texere_diagnosis *diagnosis);
 
-// Writes the fault of a number, from 0. The caller has set `fault->struct_size`.
+// Writes fault `number`, counted from 0. The caller sets `fault->struct_size` before the call.
 //
-// Fails with TEXERE_ARGUMENT where there are fewer.
+// Fails with TEXERE_ARGUMENT for a number that is too high.
 enum texere_status texere_check_fault(const struct texere_check *check,
                                       uint64_t number,
                                       struct texere_fault *fault);
 
-// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-// until the check is freed. A warning is no fault.
+// Lends warning `number`, counted from 0: writes its address to `words`. It is UTF-8 that ends
+// with a zero byte, valid until the check is freed. Warnings do not count as faults.
 //
-// Fails with TEXERE_ARGUMENT where there are fewer.
+// Fails with TEXERE_ARGUMENT for a number that is too high.
 enum texere_status texere_check_warning(const struct texere_check *check,
                                         uint64_t number,
                                         const char **words);
@@ -1157,34 +1226,37 @@ enum texere_status texere_check_json(const struct texere_check *check, const cha
 // UTF-8 that ends with a zero byte, valid until the check is freed.
 enum texere_status texere_check_measures_json(const struct texere_check *check, const char **json);
 
-// Frees a check, or nothing where it is null.
+// Frees a check. A null handle is allowed.
 void texere_check_free(struct texere_check *check);
 
-// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
+// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
 // design asks for it. `run` may be null.
 //
-// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
-// placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
-// made, and with TEXERE_CANCELLED where `run` was cancelled.
+// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
+// woven cloth that can't settle at all stay where the structure places them. The call fails with
+// TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
+// yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_cloth_rest(const struct texere_design *design,
                                      const struct texere_device *device,
                                      const struct texere_run *run,
                                      struct texere_cloth **out);
 
-// Makes the cloth of a design with its yarns as the structure places them, whatever it asks for.
+// Makes the cloth of a design with its yarns where the structure places them, even if the design
+// asks that they come to rest.
 //
-// Fails with TEXERE_DESIGN where the cloth can't be made.
+// Fails with TEXERE_DESIGN if the cloth can't be made.
 enum texere_status texere_cloth_placed(const struct texere_design *design,
                                        struct texere_cloth **out);
 
-// Writes how the yarns of a cloth came to rest. The caller has set `report->struct_size`.
+// Writes whether the yarns of a cloth came to rest. The caller sets `report->struct_size` before
+// the call.
 enum texere_status texere_cloth_report(const struct texere_cloth *cloth,
                                        struct texere_report *report);
 
-// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-// until the cloth is freed.
+// Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
+// that ends with a zero byte, valid until the cloth is freed.
 //
-// Fails with TEXERE_ARGUMENT where there are fewer.
+// Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
 enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,
                                         uint64_t number,
                                         const char **words);
@@ -1192,20 +1264,21 @@ enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,
 // Gives the yarns of a cloth, as a handle of their own. They stay valid when the cloth is freed.
 enum texere_status texere_cloth_yarns(const struct texere_cloth *cloth, struct texere_yarns **out);
 
-// Frees a cloth, or nothing where it is null.
+// Frees a cloth. A null handle is allowed.
 void texere_cloth_free(struct texere_cloth *cloth);
 
-// Reads the design in a file: `.wif`, `.toml`, `.k`.
+// Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
+// knitting machine (`.k`).
 //
-// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it is no design;
-// `texere_error_place` says where.
+// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
+// design; `texere_error_place` then says where it is at fault.
 enum texere_status texere_design_read(const char *path,
                                       size_t path_length,
                                       struct texere_design **out);
 
-// Reads a design that the caller has in memory. `name` says by its ending what kind of design it
-// is; errors call it so. `files` gives the files that the design names; it may be null, and then
-// there are none. `user` is handed to it.
+// Reads a design that the caller has in memory. `name` stands for the file's name: its ending says
+// what kind of design it is, and errors show it. `files` is called for each file that the design
+// names, with `user` as its first argument. `files` may be null if the design names no files.
 //
 // Fails as `texere_design_read` does.
 enum texere_status texere_design_read_memory(const char *name,
@@ -1216,58 +1289,61 @@ enum texere_status texere_design_read_memory(const char *name,
                                              void *user,
                                              struct texere_design **out);
 
-// Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
-// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
-// is replaced once the new one is whole.
+// Writes a design of woven cloth to a file that `texere_design_read` reads. The ending of `path`
+// says which: `.toml` for texere's own design file, `.wif` for a WIF 1.1 draft, which leaves out
+// what drafts don't have. An existing file of that name is replaced only once the new one is
+// complete.
 //
-// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a knit, and with
+// TEXERE_IO if the file can't be written.
 enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
-// Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
+// Frees a design. A null handle is allowed. Cloths that were made of the design stay valid.
 void texere_design_free(struct texere_design *design);
 
-// Opens the device of a name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
+// Opens a device by its name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
 // "wgpu" and so on. A `name_length` of 0 is "auto".
 //
-// Fails with TEXERE_DEVICE where there is none of that name, and with TEXERE_UNSUPPORTED where the
-// library was built without it.
+// Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
+// library was built without the API that it needs.
 enum texere_status texere_device_open(const char *name,
                                       size_t name_length,
                                       struct texere_device **out);
 
-// Writes what a device is. The caller has set `info->struct_size`.
+// Writes a description of a device. The caller sets `info->struct_size` before the call.
 enum texere_status texere_device_describe(const struct texere_device *device,
                                           struct texere_device_info *info);
 
-// Frees a device, or nothing where it is null. What was made with it stays valid.
+// Frees a device. A null handle is allowed. Handles that were made with the device stay valid.
 void texere_device_free(struct texere_device *device);
 
 // Draws a design on squared paper, in a `.png` file: the draft or the point paper of woven cloth,
-// the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 for the cloth
-// turned over sideways, else 0. A file of that name is replaced once the new one is whole.
+// the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 to show the
+// cloth turned over sideways, else 0. An existing file of that name is replaced only once the new
+// one is complete.
 //
-// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO where the
-// file can't be written.
+// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO if the file
+// can't be written.
 enum texere_status texere_design_draft(const struct texere_design *design,
                                        uint32_t back,
                                        const char *path,
                                        size_t path_length);
 
-// Sets whether the warp is up where an end and a pick cross; both count from 0. Both threads then
-// lie as they are woven.
+// Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
+// threads then lie as the structure places them, even if they lay otherwise before.
 //
-// Fails with TEXERE_ARGUMENT where there is no such crossing, where `up` is neither 0 nor 1, and
-// in cloth that is not woven or that is known by its yarns alone.
+// Fails with TEXERE_ARGUMENT if there is no such crossing, if `up` is neither 0 nor 1, and if the
+// cloth has no weave: because it is a knit, or because only its yarns were given.
 enum texere_status texere_live_set_lift(const struct texere_live *live,
                                         uint64_t end,
                                         uint64_t pick,
                                         uint32_t up);
 
-// Sets many lifts at once: those of `ends` ends from `first_end` on and `picks` picks from
-// `first_pick` on. `up` has a byte for each crossing, 1 where the warp is up, else 0: pick after
-// pick, and in each the ends in order.
+// Sets many lifts at once: where `ends` ends from `first_end` on cross `picks` picks from
+// `first_pick` on. `up` has a byte for each of these crossings, 1 if the warp is up, else 0. The
+// bytes lie pick after pick, and those of a pick in the order of the ends.
 //
 // Fails as `texere_live_set_lift` does.
 enum texere_status texere_live_set_drawdown(const struct texere_live *live,
@@ -1277,7 +1353,8 @@ enum texere_status texere_live_set_drawdown(const struct texere_live *live,
                                             uint64_t picks,
                                             const uint8_t *up);
 
-// Writes to `up` 1 if the warp is up where an end and a pick cross, else 0; both count from 0.
+// Writes to `up` 1 if the warp is up where an end and a pick cross, else 0. Ends and picks count
+// from 0.
 //
 // Fails as `texere_live_set_lift` does.
 enum texere_status texere_live_lift(const struct texere_live *live,
@@ -1285,10 +1362,10 @@ enum texere_status texere_live_lift(const struct texere_live *live,
                                     uint64_t pick,
                                     uint32_t *up);
 
-// Replaces a yarn, counted from 0: what it is made of and its control points, which may be more or
-// fewer than before.
+// Replaces a yarn, counted from 0: its properties and its control points. There may be more or
+// fewer points than before.
 //
-// Fails with TEXERE_ARGUMENT for a yarn, material or section that there is not, and for points
+// Fails with TEXERE_ARGUMENT if there is no such yarn, material or section, and for control points
 // that no yarn can have. The cloth then stays as it was.
 enum texere_status texere_live_set_yarn(const struct texere_live *live,
                                         uint64_t yarn,
@@ -1296,7 +1373,7 @@ enum texere_status texere_live_set_yarn(const struct texere_live *live,
                                         const struct texere_point *points,
                                         size_t point_count);
 
-// Gives a yarn, counted from 0, other control points, which may be more or fewer than before.
+// Gives a yarn, counted from 0, other control points. There may be more or fewer than before.
 //
 // Fails as `texere_live_set_yarn` does.
 enum texere_status texere_live_set_points(const struct texere_live *live,
@@ -1304,92 +1381,97 @@ enum texere_status texere_live_set_points(const struct texere_live *live,
                                           const struct texere_point *points,
                                           size_t point_count);
 
-// Writes what a yarn is made of as it is now. Its control points are those of `texere_live_yarns`.
-// The caller has set `what->struct_size`.
+// Writes the properties of a yarn, counted from 0, as they are now. `texere_live_yarns` gives its
+// control points. The caller sets `what->struct_size` before the call.
 //
-// Fails with TEXERE_ARGUMENT where there is no such yarn.
+// Fails with TEXERE_ARGUMENT if there is no such yarn.
 enum texere_status texere_live_yarn(const struct texere_live *live,
                                     uint64_t yarn,
                                     struct texere_yarn *what);
 
-// Changes a material, counted from 0. A mesh holds no colours, so an update makes nothing again.
+// Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
+// again.
 //
-// Fails with TEXERE_ARGUMENT where there is no such material, and for one that no yarn can have.
+// Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
+// have.
 enum texere_status texere_live_set_material(const struct texere_live *live,
                                             uint64_t number,
                                             const struct texere_material *material);
 
-// Writes a material as it is now, counted from 0. Its name ends with a zero byte and is valid
-// until the next call of this function with this live cloth, or until that is freed.
+// Writes a material, counted from 0, as it is now. Its name ends with a zero byte. The name is
+// valid until the next call of this function with this live cloth, or until the live cloth is
+// freed.
 //
-// Fails with TEXERE_ARGUMENT where there is no such material.
+// Fails with TEXERE_ARGUMENT if there is no such material.
 enum texere_status texere_live_material(const struct texere_live *live,
                                         uint64_t number,
                                         struct texere_material *material);
 
-// Sets the tension of the splines of all yarns, from 0 to below 1. The whole mesh is made again.
+// Sets the tension of the splines of all yarns, from 0 to below 1. The next update makes the whole
+// mesh again.
 //
-// Fails with TEXERE_ARGUMENT for another tension.
+// Fails with TEXERE_ARGUMENT for a tension outside these limits.
 enum texere_status texere_live_set_tension(const struct texere_live *live, float tension);
 
 // Replaces the structure by that of a design, such as a knit with another stitch or a weave with
-// other threads. Yarns lie as the structure places them. The tension of splines stays. Yarns that
-// are the same in both are not made again.
+// other threads. The yarns lie as the new structure places them. The tension of splines stays. The
+// next update does not make yarns again that are the same in both structures.
 //
-// Fails with TEXERE_DESIGN where the yarns of the structure can't be made, and as
+// Fails with TEXERE_DESIGN if the yarns of the structure can't be made, and as
 // `texere_live_of_cloth` does.
 enum texere_status texere_live_set_structure(const struct texere_live *live,
                                              const struct texere_design *design);
 
-// Replaces all yarns. Yarns that are the same in both are not made again. The cloth is known by
-// its yarns alone from then on: lifts can't be set.
+// Replaces all yarns. The next update does not make yarns again that stay the same. From then on
+// the live cloth has no weave, so its lifts can't be set.
 //
-// Fails with TEXERE_ARGUMENT for yarns of another tension, and as `texere_live_of_cloth` does.
+// Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, and as
+// `texere_live_of_cloth` does.
 enum texere_status texere_live_set_yarns(const struct texere_live *live,
                                          const struct texere_yarns *yarns);
 
-// Replaces all yarns by those of the same cloth at rest, and keeps the weave. Threads whose lifts
-// are set later lie as they are woven, among those at rest.
+// Replaces all yarns by those of the same cloth at rest, and keeps the weave. A thread whose lift
+// is set later lies as the structure places it, among the yarns at rest.
 //
-// Fails with TEXERE_ARGUMENT for yarns of another tension, and where there are more or fewer yarns
-// or sections than the cloth has.
+// Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, for more or fewer yarns
+// than the live cloth has, and for other sections.
 enum texere_status texere_live_set_rest(const struct texere_live *live,
                                         const struct texere_yarns *yarns);
 
-// What went wrong in the last call of this thread that failed, with all its causes, in one line of
-// UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
-// call of this thread fails.
+// What went wrong in the last call of this thread that failed, with all causes: UTF-8 that ends
+// with a zero byte. The text is empty if no call of this thread has failed. It is valid until the
+// next call of this thread fails.
 const char *texere_error_message(void);
 
-// Where in a design's file the last call of this thread that failed has found the fault.
+// Writes where the last failure of this thread lies: its place in a design's file.
 //
 // Fails with TEXERE_ARGUMENT for a null `place`.
 enum texere_status texere_error_place(struct texere_place *place);
 
-// Writes the finish of a design. The caller has set `finish->struct_size`.
+// Writes the finish of a design. The caller sets `finish->struct_size` before the call.
 enum texere_status texere_design_finish(const struct texere_design *design,
                                         struct texere_finish *finish);
 
-// Makes a design like another one with a finish of the caller's.
+// Makes a copy of a design with the finish `finish`.
 //
-// Fails with TEXERE_ARGUMENT for a finish out of range, and for one that the structure does not
-// have.
+// Fails with TEXERE_ARGUMENT for a value out of range, and for a finish that the structure does
+// not have, such as a stretch of a knit.
 enum texere_status texere_design_finished(const struct texere_design *design,
                                           const struct texere_finish *finish,
                                           struct texere_design **out);
 
-// Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
-// `settings` may be null: `texere_settings_default` says what holds then.
+// Makes a live cloth of a cloth, with its mesh on a device. If the cloth is woven, its lifts can
+// be set. `settings` may be null, and then those of `texere_settings_default` apply.
 //
-// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
-// room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY if the mesh has no room
+// on the device, and with TEXERE_UNSUPPORTED if the device can't keep a mesh.
 enum texere_status texere_live_of_cloth(const struct texere_cloth *cloth,
                                         const struct texere_device *device,
                                         const struct texere_settings *settings,
                                         struct texere_live **out);
 
-// Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
-// `settings` may be null: `texere_settings_default` says what holds then.
+// Makes a live cloth of yarns, with its mesh on a device. Yarns have no weave, so lifts can't be
+// set. `settings` may be null, and then those of `texere_settings_default` apply.
 //
 // Fails as `texere_live_of_cloth` does.
 enum texere_status texere_live_of_yarns(const struct texere_yarns *yarns,
@@ -1397,30 +1479,40 @@ enum texere_status texere_live_of_yarns(const struct texere_yarns *yarns,
                                         const struct texere_settings *settings,
                                         struct texere_live **out);
 
-// Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-// update makes the whole mesh. The caller has set `update->struct_size`.
+// Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
+// first update makes the whole mesh. `run` may be null. The caller sets `update->struct_size`
+// before the call.
 //
-// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-// parts again.
-enum texere_status texere_live_update(const struct texere_live *live, struct texere_update *update);
+// Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails, and with TEXERE_CANCELLED if
+// `run` was cancelled. The next update then makes the same parts.
+enum texere_status texere_live_update(const struct texere_live *live,
+                                      const struct texere_run *run,
+                                      struct texere_update *update);
 
-// Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
-// room between yarns, too, in which yarns can become longer. The caller has set
-// `counts->struct_size`.
+// Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
+// indices include the room between yarns, into which yarns can grow. The caller sets
+// `counts->struct_size` before the call.
 enum texere_status texere_live_counts(const struct texere_live *live, struct texere_counts *counts);
 
-// Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
-// there are. What lies between them is room, and is not drawn. They are valid until the next
-// update, or until the live cloth is freed.
+// Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
+// there are. Indices between two draws are room, and are not drawn. The draws are valid until the
+// next update, or until the live cloth is freed.
 enum texere_status texere_live_draws(const struct texere_live *live,
                                      const struct texere_draw **draws);
 
-// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
-// between yarns holds is not said.
+// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
+// when the live cloth is edited or freed.
+enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
+
+// Frees a live cloth. A null handle is allowed.
+void texere_live_free(struct texere_live *live);
+
+// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
+// of the room between yarns are undefined.
 //
-// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-// `texere_live_counts` says, and where an edit has not been brought to the mesh by
-// `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
+// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
+// says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
+// TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_live_mesh(const struct texere_live *live,
                                     const struct texere_run *run,
                                     struct texere_vertex *vertices,
@@ -1428,12 +1520,12 @@ enum texere_status texere_live_mesh(const struct texere_live *live,
                                     uint32_t *indices,
                                     uint64_t index_count);
 
-// Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
-// last update. Indices count from the base vertex of their draw, as in the whole mesh.
+// Reads a range of the mesh of a live cloth into the caller's memory, such as a change of the last
+// update. Indices count from the base vertex of their draw.
 //
-// Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
-// `index_count` is not what it says, and where an edit has not been brought to the mesh by
-// `texere_live_update`.
+// Fails with TEXERE_ARGUMENT if the range does not lie within the mesh, if `vertex_count` or
+// `index_count` is not what the range says, and if `texere_live_update` has to be called first,
+// after an edit for example.
 enum texere_status texere_live_read(const struct texere_live *live,
                                     const struct texere_change *change,
                                     struct texere_vertex *vertices,
@@ -1441,29 +1533,22 @@ enum texere_status texere_live_read(const struct texere_live *live,
                                     uint32_t *indices,
                                     uint64_t index_count);
 
-// Gives the yarns of a live cloth as they are now, as a handle of their own. They stay as they are
-// when the live cloth is edited or freed.
-enum texere_status texere_live_yarns(const struct texere_live *live, struct texere_yarns **out);
-
-// Frees a live cloth, or nothing where it is null.
-void texere_live_free(struct texere_live *live);
-
-// Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
-// air in the yarn: 0.909 is usual for cotton.
+// Writes the diameter, mm, of a yarn with the linear density `tex`, tex, and the density
+// `density`, g/cm³. The density is that of the yarn with the air in it; 0.909 is usual for cotton.
 //
 // Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
 enum texere_status texere_diameter(double tex, double density, double *diameter_mm);
 
-// Writes the measures of a cloth. The caller has set `measures->struct_size`.
+// Writes the measures of a cloth. The caller sets `measures->struct_size` before the call.
 //
-// Fails with TEXERE_DESIGN where they can't be taken.
+// Fails with TEXERE_DESIGN if they can't be taken.
 enum texere_status texere_cloth_measures(const struct texere_cloth *cloth,
                                          struct texere_measures *measures);
 
-// Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
-// `texere_cloth_measures` says.
+// Writes the length of yarn of each material of a cloth, mm. `materials` of
+// `texere_cloth_measures` says how many numbers that is.
 //
-// Fails with TEXERE_ARGUMENT where `count` is another number.
+// Fails with TEXERE_ARGUMENT if `count` is another number.
 enum texere_status texere_cloth_lengths(const struct texere_cloth *cloth,
                                         double *lengths,
                                         uint64_t count);
@@ -1471,9 +1556,9 @@ enum texere_status texere_cloth_lengths(const struct texere_cloth *cloth,
 // Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
 // indices. `run` may be null.
 //
-// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-// holds then is not said.
+// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_counts`
+// says, and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the
+// memory are undefined.
 enum texere_status texere_plan_mesh(const struct texere_plan *plan,
                                     const struct texere_run *run,
                                     struct texere_vertex *vertices,
@@ -1481,32 +1566,33 @@ enum texere_status texere_plan_mesh(const struct texere_plan *plan,
                                     uint32_t *indices,
                                     uint64_t index_count);
 
-// Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
-// members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
-// null. `texere_plan_counts` says how many vertices and indices there are; memory between values
-// stays as it is.
+// Makes the mesh of a plan in arrays that the caller chooses. Positions and normals go to arrays
+// of their own, to members of the caller's structs, or one behind the other as in `texere_vertex`.
+// `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
+// between values stays as it is.
 //
-// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
-// indices one behind the other, are the fastest: the device writes there without a copy.
+// It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
+// with indices that lie side by side: the mesh is then not copied value by value.
 //
-// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
-// TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+// Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
+// and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are
+// undefined.
 enum texere_status texere_plan_mesh_arrays(const struct texere_plan *plan,
                                            const struct texere_run *run,
                                            const struct texere_mesh_arrays *arrays);
 
 // Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
-// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+// vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
 //
 // Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
-// TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
-// none.
+// TEXERE_CANCELLED if `run` was cancelled, and with TEXERE_UNSUPPORTED if the device can't make
+// them.
 enum texere_status texere_plan_packed(const struct texere_plan *plan,
                                       const struct texere_run *run,
                                       const struct texere_view *packed);
 
 // Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
-// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+// vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
 //
 // Fails as `texere_plan_packed` does.
 enum texere_status texere_plan_attributes(const struct texere_plan *plan,
@@ -1522,63 +1608,68 @@ enum texere_status texere_plan_trajectory(const struct texere_plan *plan,
                                           const struct texere_run *run,
                                           const struct texere_view *rings);
 
-// Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+// Makes a picker of yarns. `settings` may be null, and then those of `texere_settings_default`
+// apply.
 //
-// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
-// not suffice.
+// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY if memory does not
+// suffice.
 enum texere_status texere_picker_new(const struct texere_yarns *yarns,
                                      const struct texere_settings *settings,
                                      struct texere_picker **out);
 
-// Writes what a ray hits first, from either side; of several at one distance the first along the
-// yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+// Writes which triangle a ray hits first, from either side. If several lie at the same distance,
+// it is the first along the yarns. A ray whose direction is zero, or whose numbers are not finite,
+// hits nothing.
 enum texere_status texere_picker_pick(const struct texere_picker *picker,
                                       const struct texere_ray *ray,
                                       struct texere_hit *hit);
 
-// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
-// `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
-// picker of the cloth's yarns.
+// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as `end 3 at pick 4,
+// cotton`. If the cloth is knitted by a program, the place in the program follows. The hit is one
+// of a picker of the cloth's yarns.
 //
 // `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
-// has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
-// null.
+// has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 //
-// Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
-// above the length.
+// Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
+// the length.
 enum texere_status texere_cloth_place(const struct texere_cloth *cloth,
                                       const struct texere_hit *hit,
                                       char *words,
                                       size_t size,
                                       size_t *length);
 
-// Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+// Writes what a ray hits first in a live cloth as it is now, with edits that no update has brought
+// to the mesh yet.
 //
-// Fails with TEXERE_MEMORY where memory does not suffice.
+// Fails with TEXERE_MEMORY if memory does not suffice.
 enum texere_status texere_live_pick(const struct texere_live *live,
                                     const struct texere_ray *ray,
                                     struct texere_hit *hit);
 
-// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
-// `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
-// is the yarn alone.
+// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
+// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
+// writes only which yarn it is.
 //
-// Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+// Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+// where the hit is.
 enum texere_status texere_live_place(const struct texere_live *live,
                                      const struct texere_hit *hit,
                                      char *words,
                                      size_t size,
                                      size_t *length);
 
-// Frees a picker, or nothing where it is null.
+// Frees a picker. A null handle is allowed.
 void texere_picker_free(struct texere_picker *picker);
 
 // Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
-// samples each, with fibres, on the ground. The caller has set `picture->struct_size`.
+// samples each, with fibres, on the ground. The caller sets `picture->struct_size` before the
+// call.
 enum texere_status texere_picture_default(struct texere_picture *picture);
 
-// Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
-// holds then.
+// Plans the mesh of yarns on a device. `settings` may be null, and then those of
+// `texere_settings_default` apply.
 //
 // Fails with TEXERE_ARGUMENT for settings out of range.
 enum texere_status texere_plan_new(const struct texere_yarns *yarns,
@@ -1586,19 +1677,19 @@ enum texere_status texere_plan_new(const struct texere_yarns *yarns,
                                    const struct texere_settings *settings,
                                    struct texere_plan **out);
 
-// Writes the sizes of a plan's mesh. The caller has set `counts->struct_size`.
+// Writes the sizes of a plan's mesh. The caller sets `counts->struct_size` before the call.
 enum texere_status texere_plan_counts(const struct texere_plan *plan, struct texere_counts *counts);
 
-// Lends the draws of a plan's mesh: `texere_plan_counts` says how many there are. They are valid
+// Lends the draws of a plan's mesh. `texere_plan_counts` says how many there are. They are valid
 // until the plan is freed.
 //
 // Fails with TEXERE_ARGUMENT for a null `draws`.
 enum texere_status texere_plan_draws(const struct texere_plan *plan,
                                      const struct texere_draw **draws);
 
-// Lends where the rings of each yarn begin, and behind them how many rings there are in all:
-// one number more than the plan has yarns, the first of which is 0. They are valid until the plan
-// is freed. `count` gets how many numbers there are.
+// Lends for each yarn the number of its first ring, and at the end how many rings there are in
+// all. That is one number more than the plan has yarns. The numbers are valid until the plan is
+// freed. `*count` becomes how many they are.
 //
 // Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
 enum texere_status texere_plan_ring_offsets(const struct texere_plan *plan,
@@ -1606,31 +1697,31 @@ enum texere_status texere_plan_ring_offsets(const struct texere_plan *plan,
                                             uint64_t *count);
 
 // Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
-// how many there are. The caller has set `chunk->struct_size`.
+// how many there are. The caller sets `chunk->struct_size` before the call.
 //
-// Fails with TEXERE_ARGUMENT where there is no chunk of that number.
+// Fails with TEXERE_ARGUMENT if there is no chunk of that number.
 enum texere_status texere_plan_chunk(const struct texere_plan *plan,
                                      uint64_t number,
                                      struct texere_chunk *chunk);
 
-// Frees a plan, or nothing where it is null.
+// Frees a plan. A null handle is allowed.
 void texere_plan_free(struct texere_plan *plan);
 
 // Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
 // `name_length` of 0 is "auto".
 //
-// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
-// built without pictures.
+// Fails with TEXERE_DEVICE if there is no such device, and with TEXERE_UNSUPPORTED if the library
+// was built without pictures.
 enum texere_status texere_renderer_open(const char *name,
                                         size_t name_length,
                                         struct texere_renderer **out);
 
-// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
-// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
-// null.
+// Sends yarns to a renderer, which shows them from now on in place of those before. `settings` may
+// be null, and then settings that suit a picture apply. Topology and caps of the settings have no
+// effect. `run` may be null.
 //
-// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
-// cancelled. The renderer then shows nothing.
+// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED if `run` was
+// cancelled. After a cancelled call the renderer shows nothing.
 enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
                                         const struct texere_yarns *yarns,
                                         const struct texere_settings *settings,
@@ -1638,27 +1729,29 @@ enum texere_status texere_renderer_show(const struct texere_renderer *renderer,
 
 // Writes the box round the yarns that a renderer shows.
 //
-// Fails with TEXERE_ARGUMENT where it shows none.
+// Fails with TEXERE_ARGUMENT if it shows none.
 enum texere_status texere_renderer_extent(const struct texere_renderer *renderer,
                                           struct texere_extent *extent);
 
-// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
-// from one row to the next, at least four times the width. Alpha is 255 unless the background is
-// nothing; colours are not multiplied by it. `run` may be null.
+// Makes a picture in the caller's memory. `pixels` has a row of bytes for each row of the picture,
+// from the top. A row has four bytes for each pixel, from the left: red, green, blue (sRGB) and
+// alpha. `pixels->stride` is the number of bytes from one row to the next, at least four times the
+// width. Alpha is 255 unless the background is TEXERE_BACKGROUND_NOTHING. Colours are not
+// multiplied by alpha. `run` may be null.
 //
-// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
-// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
-// `run` was cancelled. The memory is then as it was.
+// Fails with TEXERE_ARGUMENT if the renderer shows no yarns, for a picture that is out of range or
+// larger than the device takes, and for memory that is too small. Fails with TEXERE_CANCELLED if
+// `run` was cancelled. After a failure the memory is as it was.
 enum texere_status texere_renderer_picture(const struct texere_renderer *renderer,
                                            const struct texere_picture *picture,
                                            const struct texere_run *run,
                                            const struct texere_view *pixels);
 
-// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
-// A file of that name is replaced once the new one is whole.
+// Makes a picture in a `.png` file. The file has alpha if the background is
+// TEXERE_BACKGROUND_NOTHING. `run` may be null. An existing file of that name is replaced only
+// once the new one is complete.
 //
-// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+// Fails as `texere_renderer_picture` does, and with TEXERE_IO if the file can't be written.
 enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
                                          const struct texere_picture *picture,
                                          const struct texere_run *run,
@@ -1666,18 +1759,19 @@ enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
                                          size_t path_length);
 
 // Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
-// edges. No yarn is seen outside the picture, and before the first one.
+// edges. No yarn is seen outside the picture, before the first picture, and after a picture that
+// was cancelled.
 //
-// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+// Fails with TEXERE_ARGUMENT if the renderer shows no yarns.
 enum texere_status texere_renderer_seen(const struct texere_renderer *renderer,
                                         float x,
                                         float y,
                                         struct texere_seen *seen);
 
-// Frees a renderer, or nothing where it is null.
+// Frees a renderer. A null handle is allowed.
 void texere_renderer_free(struct texere_renderer *renderer);
 
-// Makes a run.
+// Makes a run, which is not cancelled.
 //
 // Fails with TEXERE_ARGUMENT for a null `out`.
 enum texere_status texere_run_new(struct texere_run **out);
@@ -1686,49 +1780,50 @@ enum texere_status texere_run_new(struct texere_run **out);
 // thread may ask.
 enum texere_status texere_run_cancel(const struct texere_run *run);
 
-// Writes how much of the call is done, from 0 to 1. Any thread may ask.
+// Writes the share of the call that is done, from 0 to 1. Any thread may ask.
 //
 // Fails with TEXERE_ARGUMENT for a null `share`.
 enum texere_status texere_run_progress(const struct texere_run *run, double *share);
 
-// Frees a run, or nothing where it is null.
+// Frees a run. A null handle is allowed.
 void texere_run_free(struct texere_run *run);
 
-// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
-// may be freed.
+// Starts a session of a plan: sends the control points of its yarns to the device. `run` may be
+// null. The plan may be freed afterwards.
 //
-// Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
-// with TEXERE_CANCELLED where `run` was cancelled.
+// Fails with TEXERE_UNSUPPORTED if the device has no buffers of OpenCL or Vulkan to lend, as with
+// "cpu", and with TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_session_new(const struct texere_plan *plan,
                                       const struct texere_run *run,
                                       struct texere_session **out);
 
 // Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
-// computes with its buffers. They are valid until the session is freed. The caller has set
-// `native->struct_size`.
+// computes with the session's buffers. The objects are valid until the session is freed. The
+// caller sets `native->struct_size` before the call.
 enum texere_status texere_session_native(const struct texere_session *session,
                                          struct texere_native *native);
 
-// Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
-// `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
-// many there are. The call may return before the device is done: `texere_device_mesh` says what to
-// wait for. The caller has set `mesh->struct_size`.
+// Makes the mesh of a chunk on the device, and lends the buffers that hold it: vertices as
+// `texere_vertex`, and indices that count from the chunk's first vertex. `texere_plan_chunk` says
+// how many vertices and indices there are. The call may return before the device is done;
+// `texere_device_mesh` says what to wait for. The caller sets `mesh->struct_size` before the call.
 //
-// The buffers belong to the library, and may be read only. They stay valid until the session is
-// freed, and hold this chunk's mesh until the next chunk but one is made.
+// The buffers belong to the library, and the program may only read them. They stay valid until the
+// session is freed. They hold this chunk's mesh until two other chunks have been made.
 //
-// Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+// Fails with TEXERE_ARGUMENT if the plan has no chunk of that number.
 enum texere_status texere_session_mesh(const struct texere_session *session,
                                        uint64_t number,
                                        struct texere_device_mesh *mesh);
 
-// Waits until the device has done all that the session has asked of it.
+// Waits until the device has finished all work of the session.
 enum texere_status texere_session_wait(const struct texere_session *session);
 
-// Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+// Waits for the mesh of a chunk that `texere_session_mesh` has made, and copies it to the caller's
+// memory.
 //
-// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
-// says, and where the chunk was not made or is no longer there.
+// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_chunk`
+// says, and if the chunk was not made or another chunk has taken its buffers.
 enum texere_status texere_session_read(const struct texere_session *session,
                                        uint64_t number,
                                        struct texere_vertex *vertices,
@@ -1736,111 +1831,114 @@ enum texere_status texere_session_read(const struct texere_session *session,
                                        uint32_t *indices,
                                        uint64_t index_count);
 
-// Frees a session with its buffers, or nothing where it is null. No command of the program's that
-// uses the buffers may be under way.
+// Frees a session with its buffers. A null handle is allowed. None of the program's own commands
+// may be using the buffers then.
 void texere_session_free(struct texere_session *session);
 
-// Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
-// their polygons have. The caller has set `settings->struct_size`.
+// Writes the settings that suit yarns: the usual ones, with as many subdivisions as the yarns'
+// twist needs, and with as many sides as a polygon among their sections has corners. The caller
+// sets `settings->struct_size` before the call.
 enum texere_status texere_settings_default(const struct texere_yarns *yarns,
                                            struct texere_settings *settings);
 
 // Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
-// a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
-// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
-// first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
-// the calling thread.
+// a time. Chunks come in order. All vertices of a chunk come before its indices. A piece of
+// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of indices that all
+// draws use comes first, in a piece of chunk 0. `run` may be null. The callback runs on the
+// calling thread, with `user` as its first argument.
 //
-// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-// 0.
+// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+// than 0.
 enum texere_status texere_plan_stream(const struct texere_plan *plan,
                                       const struct texere_run *run,
                                       texere_piece_callback callback,
                                       void *user);
 
-// Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
-// `texere_design_finished` says otherwise.
+// Makes a design of a warp knit from the caller's arrays, which are copied. By default its yarns
+// come to rest; `texere_design_finished` makes a design with another finish.
 //
-// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-// 0, value and limit.
+// Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+// array, the element (counted from 0), the value and the limit.
 enum texere_status texere_design_warp_knit(const struct texere_warp_knit *knit,
                                            struct texere_design **out);
 
-// Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
-// `texere_design_finished` says otherwise.
+// Makes a design of a weft knit from the caller's arrays, which are copied. By default its yarns
+// come to rest; `texere_design_finished` makes a design with another finish.
 //
-// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-// 0, value and limit.
+// Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+// array, the element (counted from 0), the value and the limit.
 enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
                                            struct texere_design **out);
 
-// Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
-// `texere_design_finished` says otherwise.
+// Makes a design of woven cloth from the caller's arrays, which are copied. By default its yarns
+// come to rest; `texere_design_finished` makes a design with another finish.
 //
-// Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
-// 0, value and limit.
+// Fails with TEXERE_ARGUMENT for arrays from which no cloth can be made. The message names the
+// array, the element (counted from 0), the value and the limit.
 enum texere_status texere_design_woven(const struct texere_woven *woven,
                                        struct texere_design **out);
 
 // Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-// be null. A file of that name is replaced once the new one is whole.
+// be null. An existing file of that name is replaced only once the new one is complete.
 //
-// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+// Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
 // cancelled.
 enum texere_status texere_plan_write(const struct texere_plan *plan,
                                      const struct texere_run *run,
                                      const char *path,
                                      size_t path_length);
 
-// Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
-// `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
-// handed to the callback, which runs on the calling thread.
+// Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
+// bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
+// TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
+// first argument.
 //
-// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-// 0. What came before is no whole file.
+// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+// than 0. The bytes that came before then are not a complete file.
 enum texere_status texere_plan_write_to(const struct texere_plan *plan,
                                         const struct texere_run *run,
                                         uint32_t format,
                                         texere_write_callback callback,
                                         void *user);
 
-// Makes round and flattened yarns of the caller's arrays, which are copied.
+// Makes yarns, round or flattened, of the caller's arrays, which are copied.
 //
-// Fails with TEXERE_ARGUMENT for arrays that no yarns can be: the message names yarn, point, value
-// and limit.
+// Fails with TEXERE_ARGUMENT for arrays from which no yarns can be made. The message names the
+// yarn, the point, the value and the limit.
 enum texere_status texere_yarns_new(const struct texere_yarn_arrays *arrays,
                                     struct texere_yarns **out);
 
-// Reads yarns that were saved in a `.yarns` file.
+// Reads yarns from a `.yarns` file.
 //
-// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
-// yarns.
+// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no yarns.
 enum texere_status texere_yarns_read(const char *path,
                                      size_t path_length,
                                      struct texere_yarns **out);
 
-// Saves yarns in a `.yarns` file, to the bit.
+// Saves yarns in a `.yarns` file, which keeps every bit of them.
 //
-// Fails with TEXERE_IO where the file can't be written.
+// Fails with TEXERE_IO if the file can't be written.
 enum texere_status texere_yarns_write(const struct texere_yarns *yarns,
                                       const char *path,
                                       size_t path_length);
 
-// Writes how much yarns hold. The caller has set `counts->struct_size`.
+// Writes how many yarns and control points there are. The caller sets `counts->struct_size` before
+// the call.
 enum texere_status texere_yarns_counts(const struct texere_yarns *yarns,
                                        struct texere_yarn_counts *counts);
 
-// Copies offsets and control points to the caller's memory: `yarns + 1` offsets and `points`
-// points, as `texere_yarns_counts` says.
+// Copies to the caller's memory where the points of each yarn begin, as in `offsets` of
+// `texere_yarn_arrays`, and the control points. With the numbers of `texere_yarns_counts` there
+// are `yarns + 1` offsets and `points` points.
 //
-// Fails with TEXERE_ARGUMENT where `offset_count` or `point_count` is another number.
+// Fails with TEXERE_ARGUMENT if `offset_count` or `point_count` is another number.
 enum texere_status texere_yarns_points(const struct texere_yarns *yarns,
                                        uint64_t *offsets,
                                        uint64_t offset_count,
                                        struct texere_point *points,
                                        uint64_t point_count);
 
-// Frees yarns, or nothing where they are null. Plans that were made of them stay valid.
+// Frees yarns. A null handle is allowed. Plans that were made of the yarns stay valid.
 void texere_yarns_free(struct texere_yarns *yarns);
 
 #ifdef __cplusplus

@@ -1,13 +1,13 @@
-// texere for C++17: classes over texere.h that free what they hold, and exceptions.
+// texere for C++17: classes over texere.h that own their handles and free them, and exceptions.
 //
-// A class that is made of a handle owns it: it can be moved and not copied. A function that fails
-// throws texere::Error. The functions of a class do what those of texere.h that they call do, and
-// texere.h says what that is: units, threads, how long lent memory is valid.
+// An object of a class with a handle owns the handle. It can be moved but not copied. A function
+// that fails throws texere::Error. For what a function of a class does, see the function of
+// texere.h that it calls: texere.h describes units, threads, and how long lent memory is valid.
 //
-// Nothing is allocated behind the caller's back: meshes and points go to memory of the caller's, or
-// to vectors where the name of the function says so. What is rarely used has no function here, such
-// as designs by arrays, finishes, sessions on a device and most edits of live cloth: it is a call of
-// texere.h with `get()` of a handle, in `texere::check`.
+// Meshes and points go to memory of the caller's. They go to vectors only if the name of the
+// function says so. What programs seldom need has no function here, such as designs from arrays,
+// finishes, sessions on a device and most edits of live cloth. For that a program calls the
+// function of texere.h with `get()` of the object, and passes the status to `texere::check`.
 
 #ifndef TEXERE_HPP
 #define TEXERE_HPP
@@ -34,10 +34,10 @@
 
 namespace texere {
 
-// What a function throws where a call of the library fails.
+// The exception that a function throws if a call of the library fails.
 class Error : public std::runtime_error {
 public:
-    // The last failure of this thread.
+    // Takes message and place of the last failure of this thread.
     explicit Error(texere_status status) : std::runtime_error(texere_error_message()), status_(status) {
         texere_place place{};
         texere_error_place(&place);
@@ -46,11 +46,11 @@ public:
     }
 
     texere_status status() const noexcept { return status_; }
-    // The design's file that is at fault; empty where the error has no place.
+    // The design's file that is at fault; empty if the error has no place.
     const std::string &file() const noexcept { return file_; }
-    // The line, from 1; 0 where it is not known.
+    // The line, counted from 1; 0 if it is not known.
     std::uint64_t line() const noexcept { return line_; }
-    // The column, in letters from 1; 0 where it is not known.
+    // The column, in letters counted from 1; 0 if it is not known.
     std::uint64_t column() const noexcept { return column_; }
 
 private:
@@ -59,12 +59,12 @@ private:
     std::uint64_t line_ = 0, column_ = 0;
 };
 
-// Throws what went wrong in a call.
+// Throws an Error if a call failed.
 inline void check(texere_status status) {
     if (status != TEXERE_OK) throw Error(status);
 }
 
-// Values that lie side by side in memory of someone else's, as std::span of C++20.
+// Values that lie side by side in memory that another object owns, like std::span of C++20.
 template <class T>
 class view {
 public:
@@ -72,7 +72,7 @@ public:
     constexpr view(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
     template <std::size_t Size>
     constexpr view(T (&array)[Size]) noexcept : data_(array), size_(Size) {}
-    // Of a vector, an array, a span: whatever has `data` and `size`.
+    // The values of a vector, an array, a span, or any other container with `data` and `size`.
     template <class Container, class Value = std::remove_pointer_t<decltype(std::declval<Container &>().data())>,
               class = std::enable_if_t<std::is_convertible_v<Value (*)[], T (*)[]>>>
     constexpr view(Container &container) : data_(container.data()), size_(container.size()) {}
@@ -91,7 +91,7 @@ private:
     std::size_t size_ = 0;
 };
 
-// What a call writes to its last argument.
+// Calls a function of texere.h, and returns the value that it writes to its last argument.
 template <class Value, class Call, class... Arguments>
 Value written(Call call, Arguments... arguments) {
     Value value{};
@@ -99,14 +99,15 @@ Value written(Call call, Arguments... arguments) {
     return value;
 }
 
-// A handle that is freed when its owner goes. It has handles without a class of their own, too:
+// A handle that is freed when its owner is destroyed. It also serves for handles that have no class
+// here:
 // texere::Owner<texere_session, texere_session_free> session(texere_session_new, plan.get(), nullptr);
 template <class Handle, void (*Free)(Handle *)>
 class Owner {
 public:
-    // Takes a handle over.
+    // Takes over a handle.
     explicit Owner(Handle *handle) noexcept : handle_(handle) {}
-    // The handle that a call makes, with the call's other arguments.
+    // Owns the handle that `call` makes with these other arguments.
     template <class... Parameters, class... Arguments>
     explicit Owner(texere_status (*call)(Parameters...), Arguments... arguments)
         : handle_(written<Handle *>(call, arguments...)) {}
@@ -124,7 +125,7 @@ private:
     Handle *handle_;
 };
 
-// The text that a call writes to memory whose size it says beforehand.
+// The text of a call that writes a text. The call is made twice: for the length, and for the text.
 template <class Call, class... Arguments>
 std::string text(Call call, Arguments... arguments) {
     std::string words(written<std::size_t>(call, arguments..., nullptr, 0) + 1, '\0');
@@ -140,7 +141,7 @@ Struct sized() {
     return value;
 }
 
-// The struct that a call writes about a handle.
+// The struct that a call writes, of those calls that take a handle and a struct with its size set.
 template <class Struct, class Handle>
 Struct told(texere_status (*call)(const Handle *, Struct *), const Handle *handle) {
     auto value = sized<Struct>();
@@ -148,13 +149,14 @@ Struct told(texere_status (*call)(const Handle *, Struct *), const Handle *handl
     return value;
 }
 
-// A function of the caller's that the library calls. What it throws is kept until the call is over.
+// A function of the caller's that the library calls. If the function throws, the exception is kept
+// until the call of the library has returned.
 template <class Function>
 class Callback {
 public:
     explicit Callback(Function function) : function_(std::move(function)) {}
 
-    // What the library calls, with the callback as `user`.
+    // The function that the library calls, with the address of the Callback as `user`.
     template <class... Arguments>
     static std::int32_t call(void *user, Arguments... arguments) noexcept {
         auto &callback = *static_cast<Callback *>(user);
@@ -166,7 +168,7 @@ public:
         }
     }
     bool has_thrown() const noexcept { return thrown_ != nullptr; }
-    // Throws what the function has thrown, or else what went wrong in the call.
+    // Throws the exception of the caller's function, or else an Error if the call failed.
     void check(texere_status status) const {
         if (thrown_) std::rethrow_exception(thrown_);
         texere::check(status);
@@ -177,15 +179,15 @@ private:
     std::exception_ptr thrown_;
 };
 
-// Progress of calls, and their end before they are done. Any thread may ask and cancel.
+// Progress and cancellation of calls. Any thread may use them.
 class Run : public Owner<texere_run, texere_run_free> {
 public:
     Run() : Owner(texere_run_new) {}
 
     void cancel() const { check(texere_run_cancel(get())); }
-    // How much of the call is done, from 0 to 1.
+    // The share of the call that is done, from 0 to 1.
     double progress() const { return written<double>(texere_run_progress, get()); }
-    // The handle of a run that may be left out.
+    // The handle of a run, or null if there is none.
     static const texere_run *of(const Run *run) { return run ? run->get() : nullptr; }
 };
 
@@ -195,19 +197,20 @@ public:
     // "auto", "cpu", "opencl:0", "wgpu" and so on.
     explicit Device(std::string_view name = "auto") : Owner(texere_device_open, name.data(), name.size()) {}
 
-    // What it is. The strings are valid as long as the device.
+    // A description of the device, whose strings are valid as long as the device.
     texere_device_info describe() const { return told(texere_device_describe, get()); }
 };
 
-// A design that was read.
+// A design that is read from a file or from memory.
 class Design : public Owner<texere_design, texere_design_free> {
 public:
-    // Of a file: `.wif`, `.toml`, `.k`.
+    // Reads a file: `.wif`, `.toml` or `.k`.
     explicit Design(std::string_view path) : Owner(texere_design_read, path.data(), path.size()) {}
 
-    // Of memory, with files that the design names where there are any: `files(path)` gives
-    // `std::optional<view<const std::uint8_t>>`, whose bytes stay valid until this returns. What it
-    // throws is thrown on. The ending of `name` says what kind of design it is.
+    // Reads a design from memory. The ending of `name` says what kind of design it is. `files(path)`
+    // is called for each file that the design names. It returns a
+    // `std::optional<view<const std::uint8_t>>`, whose bytes have to stay valid until the constructor
+    // returns. An exception of `files` leaves the constructor.
     Design(std::string_view name, view<const std::uint8_t> data)
         : Design(name, data, [](std::string_view) { return std::nullopt; }) {}
     template <class Files>
@@ -237,14 +240,14 @@ private:
 class Yarns : public Owner<texere_yarns, texere_yarns_free> {
 public:
     using Owner::Owner;
-    // Of a `.yarns` file.
+    // Reads a `.yarns` file.
     explicit Yarns(std::string_view path) : Owner(texere_yarns_read, path.data(), path.size()) {}
-    // Of arrays, which are copied.
+    // Makes yarns of arrays, which are copied.
     explicit Yarns(const texere_yarn_arrays &arrays) : Owner(texere_yarns_new, &arrays) {}
 
     void write(std::string_view path) const { check(texere_yarns_write(get(), path.data(), path.size())); }
     texere_yarn_counts counts() const { return told(texere_yarns_counts, get()); }
-    // The settings that suit them.
+    // The settings that suit the yarns.
     texere_settings settings() const { return told(texere_settings_default, get()); }
     // Copies as many offsets and points as `counts` says: `yarns + 1` and `points`.
     void points(view<std::uint64_t> offsets, view<texere_point> points) const {
@@ -255,19 +258,20 @@ public:
 // The cloth of a design.
 class Cloth : public Owner<texere_cloth, texere_cloth_free> {
 public:
-    // With its yarns at rest, where the design asks for it.
+    // Makes a cloth with its yarns at rest, if the design asks for it.
     Cloth(const Design &design, const Device &device, const Run *run = nullptr)
         : Owner(texere_cloth_rest, design.get(), device.get(), Run::of(run)) {}
-    // With its yarns as the structure places them.
+    // Makes a cloth with its yarns where the structure places them.
     explicit Cloth(const Design &design) : Owner(texere_cloth_placed, design.get()) {}
 
-    // How the yarns came to rest. `words` is valid as long as the cloth.
+    // Whether the yarns came to rest. `words` is valid as long as the cloth.
     texere_report report() const { return told(texere_cloth_report, get()); }
-    // The warning of a number, from 0, valid as long as the cloth; `report` says how many there are.
+    // Warning `number`, counted from 0, valid as long as the cloth. `report` says how many there
+    // are.
     const char *warning(std::uint64_t number) const {
         return written<const char *>(texere_cloth_warning, get(), number);
     }
-    // Yarn, weight, thickness, crimp, cover, loops.
+    // Length of yarn, weight, thickness, crimp, cover and loops of the cloth.
     texere_measures measures() const { return told(texere_cloth_measures, get()); }
     // What a weaver or a knitter calls the place of a hit.
     std::string place(const texere_hit &hit) const { return text(texere_cloth_place, get(), &hit); }
@@ -277,32 +281,33 @@ public:
 // The plan of a mesh.
 class Plan : public Owner<texere_plan, texere_plan_free> {
 public:
-    // With the settings that suit the yarns, unless others are given.
+    // Plans the mesh of yarns. Null settings stand for those that suit the yarns.
     Plan(const Yarns &yarns, const Device &device, const texere_settings *settings = nullptr)
         : Owner(texere_plan_new, yarns.get(), device.get(), settings) {}
 
     texere_counts counts() const { return told(texere_plan_counts, get()); }
-    // Which indices draw which yarn, valid as long as the plan.
+    // The draws, which say which indices draw which yarn. They are valid as long as the plan.
     view<const texere_draw> draws() const {
         return {written<const texere_draw *>(texere_plan_draws, get()), static_cast<std::size_t>(counts().draws)};
     }
-    // Makes the mesh: as many vertices and indices as `counts` says.
+    // Makes the mesh. The views have as many vertices and indices as `counts` says.
     void mesh(view<texere_vertex> vertices, view<std::uint32_t> indices, const Run *run = nullptr) const {
         check(texere_plan_mesh(get(), Run::of(run), vertices.data(), vertices.size(), indices.data(),
                                indices.size()));
     }
-    // Makes the mesh in vectors, which get the size that they need.
+    // Makes the mesh in vectors, which are resized to it.
     void mesh_vectors(std::vector<texere_vertex> &vertices, std::vector<std::uint32_t> &indices,
                       const Run *run = nullptr) const {
         vertices.resize(static_cast<std::size_t>(counts().vertices));
         indices.resize(static_cast<std::size_t>(counts().indices));
         mesh(vertices, indices, run);
     }
-    // Makes the mesh in arrays of positions, normals and indices, wherever they lie.
+    // Makes the mesh in arrays of positions, normals and indices that the caller describes.
     void mesh(const texere_mesh_arrays &arrays, const Run *run = nullptr) const {
         check(texere_plan_mesh_arrays(get(), Run::of(run), &arrays));
     }
-    // Makes packed vertices or attributes, as many as vertices, or a ring for each ring.
+    // These three make packed vertices, attributes or rings. The view has as many values as
+    // `counts` has vertices or, for `trajectory`, rings.
     void packed(view<texere_packed_vertex> to, const Run *run = nullptr) const {
         fill(texere_plan_packed, to, run);
     }
@@ -310,14 +315,15 @@ public:
         fill(texere_plan_attributes, to, run);
     }
     void trajectory(view<texere_ring> to, const Run *run = nullptr) const { fill(texere_plan_trajectory, to, run); }
-    // Makes the mesh piece by piece, in bounded memory: `take(const texere_piece &)` gets each. What
-    // it throws ends the call, and is thrown on.
+    // Makes the mesh piece by piece, in bounded memory, and calls `take(const texere_piece &)` for
+    // each piece. An exception of `take` ends the call and leaves this function.
     template <class Take>
     void stream(Take take, const Run *run = nullptr) const {
         Callback each([&](const texere_piece *piece) { return take(*piece), 0; });
         each.check(texere_plan_stream(get(), Run::of(run), each.call, &each));
     }
-    // Writes a file of the format that begins with TEXERE_FORMAT to `take(offset, bytes)`.
+    // Makes the mesh and hands the bytes of a file to `take(offset, bytes)`. `format` is a constant
+    // whose name begins with TEXERE_FORMAT.
     template <class Take>
     void write_to(std::uint32_t format, Take take, const Run *run = nullptr) const {
         Callback each([&](std::uint64_t offset, const std::uint8_t *data, std::size_t size) {
@@ -338,19 +344,20 @@ private:
     }
 };
 
-// The check of a cloth: its faults and their cures. All strings are valid as long as the check.
+// The check of a cloth: its faults and their cures. All its strings are valid as long as the check.
 class Check : public Owner<texere_check, texere_check_free> {
 public:
     explicit Check(const Cloth &cloth, const texere_settings *settings = nullptr, const Run *run = nullptr)
         : Owner(texere_check_new, cloth.get(), settings, TEXERE_ACCURACY, Run::of(run)) {}
 
     texere_diagnosis diagnosis() const { return told(texere_check_diagnosis, get()); }
-    // The faults and their cures, and the measures of the cloth.
+    // The faults and their cures as JSON, and in `measures_json` the counts and measures of the
+    // cloth.
     const char *json() const { return written<const char *>(texere_check_json, get()); }
     const char *measures_json() const { return written<const char *>(texere_check_measures_json, get()); }
 };
 
-// Says what a ray hits first of yarns. `found` of the hit is 0 where it hits nothing.
+// Says what a ray hits first of the mesh of yarns. `found` of the hit is 0 if the ray hits nothing.
 class Picker : public Owner<texere_picker, texere_picker_free> {
 public:
     explicit Picker(const Yarns &yarns, const texere_settings *settings = nullptr)
@@ -364,7 +371,7 @@ public:
     Live(const Cloth &cloth, const Device &device, const texere_settings *settings = nullptr)
         : Owner(texere_live_of_cloth, cloth.get(), device.get(), settings) {}
 
-    // Whether the warp is up where an end and a pick cross; both count from 0.
+    // Whether the warp is up where an end and a pick cross. Ends and picks count from 0.
     bool lift(std::uint64_t end, std::uint64_t pick) const {
         return written<std::uint32_t>(texere_live_lift, get(), end, pick) != 0;
     }
@@ -372,13 +379,18 @@ public:
         check(texere_live_set_lift(get(), end, pick, up));
     }
     // Brings the edits to the mesh. The changes are valid until the next update.
-    texere_update update() { return told(texere_live_update, get()); }
+    texere_update update(const texere_run *run = nullptr) {
+        auto update = sized<texere_update>();
+        check(texere_live_update(get(), run, &update));
+        return update;
+    }
     texere_counts counts() const { return told(texere_live_counts, get()); }
-    // Which indices draw which yarn, valid until the next update.
+    // The draws, which say which indices draw which yarn. They are valid until the next update.
     view<const texere_draw> draws() const {
         return {written<const texere_draw *>(texere_live_draws, get()), static_cast<std::size_t>(counts().draws)};
     }
-    // Reads the mesh, or a change of it: as many vertices and indices as it has.
+    // Reads the mesh, or a change of it. The views have as many vertices and indices as `counts` or
+    // the change says.
     void mesh(view<texere_vertex> vertices, view<std::uint32_t> indices, const Run *run = nullptr) const {
         check(texere_live_mesh(get(), Run::of(run), vertices.data(), vertices.size(), indices.data(),
                                indices.size()));
@@ -386,28 +398,29 @@ public:
     void read(const texere_change &change, view<texere_vertex> vertices, view<std::uint32_t> indices) const {
         check(texere_live_read(get(), &change, vertices.data(), vertices.size(), indices.data(), indices.size()));
     }
-    // The yarns, and what a ray hits, as they are now; edits count before an update.
+    // The yarns, and what a ray hits, as they are now. Edits count even before an update.
     Yarns yarns() const { return Yarns(texere_live_yarns, get()); }
     texere_hit pick(const texere_ray &ray) const { return written<texere_hit>(texere_live_pick, get(), &ray); }
     std::string place(const texere_hit &hit) const { return text(texere_live_place, get(), &hit); }
 };
 
-// A device that makes pictures, and the yarns that it shows. One thread at a time may use it.
+// A device that makes pictures, and the yarns that the pictures show. One thread at a time may use
+// it.
 class Renderer : public Owner<texere_renderer, texere_renderer_free> {
 public:
     // "auto", "wgpu", "wgpu:1" and so on.
     explicit Renderer(std::string_view name = "auto") : Owner(texere_renderer_open, name.data(), name.size()) {}
 
-    // What a picture is unless it is said otherwise.
+    // The usual picture.
     static texere_picture usual() {
         auto picture = sized<texere_picture>();
         return check(texere_picture_default(&picture)), picture;
     }
-    // Shows yarns from now on in place of others.
+    // Shows yarns from now on in place of those before.
     void show(const Yarns &yarns, const texere_settings *settings = nullptr, const Run *run = nullptr) {
         check(texere_renderer_show(get(), yarns.get(), settings, Run::of(run)));
     }
-    // Makes a picture: four bytes a pixel, rows from the top without a gap.
+    // Makes a picture: four bytes for each pixel, in rows from the top that lie side by side.
     void picture(const texere_picture &picture, view<std::uint8_t> pixels, const Run *run = nullptr) const {
         const texere_view rows{pixels.data(), pixels.size(), std::uint64_t{4} * picture.width};
         check(texere_renderer_picture(get(), &picture, Run::of(run), &rows));

@@ -1,10 +1,11 @@
-//! What C passes: pointers, texts, structs that say their size.
+//! Checks of what C passes: pointers and texts.
 
 use std::ffi::{CStr, c_char};
 
 use crate::failure::Failure;
 
-/// Makes sure that a pointer is neither null nor misaligned. `name` is the argument's.
+/// Makes sure that a pointer is neither null nor misaligned. `name` is the argument's name in the
+/// error message.
 pub(crate) fn check<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
     if pointer.is_null() {
         return Err(Failure::argument(format!("{name} is null")));
@@ -16,7 +17,8 @@ pub(crate) fn check<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
     Ok(())
 }
 
-/// `count` values of the caller's. A null pointer is none, where `count` is 0.
+/// The `count` values that a pointer of the caller's points to. The pointer may be null if `count`
+/// is 0.
 ///
 /// # Safety
 ///
@@ -27,11 +29,12 @@ pub(crate) unsafe fn slice<'a, T>(name: &str, pointer: *const T, count: usize) -
     }
     check(name, pointer)?;
     fits::<T>(name, count)?;
-    // SAFETY: neither null nor misaligned nor too long; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned nor too long; the caller vouches for the
+    // rest.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// `count` values of the caller's that are written.
+/// The `count` values that a pointer of the caller's points to, to be written.
 ///
 /// # Safety
 ///
@@ -47,7 +50,8 @@ pub(crate) unsafe fn slice_mut<'a, T>(
     }
     check(name, pointer)?;
     fits::<T>(name, count)?;
-    // SAFETY: neither null nor misaligned nor too long; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned nor too long; the caller vouches for the
+    // rest.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer, count) })
 }
 
@@ -59,7 +63,7 @@ fn fits<T>(name: &str, count: usize) -> Result<(), Failure> {
     }
 }
 
-/// A number that says yes or no.
+/// A truth value of the caller's: 0 or 1.
 pub(crate) fn flag(name: &str, value: u32) -> Result<bool, Failure> {
     match value {
         0 => Ok(false),
@@ -79,61 +83,31 @@ pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char, length: usize)
     str::from_utf8(bytes).map_err(|error| Failure::argument(format!("{name} is not UTF-8: {error}")))
 }
 
-/// Makes sure that a struct of the caller's says the size that it has.
-///
-/// # Safety
-///
-/// `pointer` is valid for reads of a `u32`.
-pub(crate) unsafe fn check_sized<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
-    check(name, pointer)?;
-    // SAFETY: neither null nor misaligned for `T`, which begins with a `u32`.
-    let given = unsafe { pointer.cast::<u32>().read() };
-    let size = size_of::<T>();
-    if given as usize != size {
-        return Err(Failure::argument(format!(
-            "{name}.struct_size is {given}, and this library takes {size}"
-        )));
-    }
-    Ok(())
-}
-
-/// A struct of the caller's that says its size.
-///
-/// # Safety
-///
-/// `pointer` is valid for reads of a `u32`, and of as many bytes as that says.
-pub(crate) unsafe fn sized<T: Copy>(name: &str, pointer: *const T) -> Result<T, Failure> {
-    // SAFETY: the caller vouches for it.
-    unsafe { check_sized(name, pointer) }?;
-    // SAFETY: it has the size of `T`, and is neither null nor misaligned.
-    Ok(unsafe { pointer.read() })
-}
-
-/// Makes sure that there is a callback.
+/// Makes sure that a callback is not null.
 pub(crate) fn given<F>(callback: Option<F>) -> Result<F, Failure> {
     callback.ok_or_else(|| Failure::argument("callback is null"))
 }
 
-/// Lends a text: writes where it is to `to`, which has this name.
+/// Lends a text: writes its address to `to`. `name` is the argument's name in the error message.
 ///
 /// # Safety
 ///
 /// `to` is valid for a write.
 pub(crate) unsafe fn lend(name: &str, text: &CStr, to: *mut *const c_char) -> Result<(), Failure> {
     check(name, to)?;
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     unsafe { to.write(text.as_ptr()) };
     Ok(())
 }
 
-/// The one of this number, from 0. `name` is what an error calls it.
+/// Element `number` of `all`, counted from 0. `name` is what the error message calls an element.
 pub(crate) fn numbered<'a, T>(name: &str, all: &'a [T], number: u64) -> Result<&'a T, Failure> {
     let found = usize::try_from(number).ok().and_then(|number| all.get(number));
     found.ok_or_else(|| Failure::argument(format!("{name} {number}, but there are {}, from 0", all.len())))
 }
 
 /// Writes the length of `text` to `length`, and the text with a zero byte to `words`, which has
-/// room for `size` bytes. Where `size` is 0 only the length is written.
+/// room for `size` bytes. If `size` is 0, only the length is written.
 ///
 /// # Safety
 ///
@@ -147,7 +121,7 @@ pub(crate) unsafe fn write_text(
     check("length", length)?;
     // SAFETY: the caller vouches for it.
     let room = unsafe { slice_mut("words", words.cast::<u8>(), size) }?;
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     unsafe { length.write(text.len()) };
     if size == 0 {
         return Ok(());

@@ -1,14 +1,14 @@
-//! What the caller's callbacks answer.
+//! Return values of the caller's callbacks.
 
 use std::error::Error;
 use std::fmt;
 
-/// A callback answered other than 0, which ends the call.
+/// The error that a callback returned a number other than 0, which ends the call.
 #[derive(Debug)]
 pub(crate) struct Answer(i32);
 
 impl Answer {
-    /// The answer of a callback: 0 says to go on.
+    /// Fails unless the callback returned 0, which means to go on.
     pub(crate) fn of(answer: i32) -> Result<(), Self> {
         if answer == 0 { Ok(()) } else { Err(Self(answer)) }
     }

@@ -1,4 +1,4 @@
-//! What is wrong with a cloth, where, and what would cure it; and the reports of it as JSON.
+//! The check of a cloth: its faults, their places and cures, and the reports as JSON.
 
 use std::ffi::{CString, c_char};
 use std::ops::ControlFlow;
@@ -10,7 +10,7 @@ use texere::check::{
 };
 use texere::{PipelineError, Settings};
 
-use crate::argument::{check_sized, lend, numbered};
+use crate::argument::{lend, numbered};
 use crate::cloth::{Cloth, texere_cloth};
 use crate::error::guard;
 use crate::failure::Failure;
@@ -18,6 +18,7 @@ use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 
 /// The check of a cloth: how near its yarns come to one another, its faults, and their cures.
@@ -30,7 +31,7 @@ pub(crate) struct Checked {
     diagnosis: Diagnosis,
     faults: Vec<Fault>,
     warnings: Vec<CString>,
-    /// What `texere inspect --json` and `texere check --json` print.
+    /// What `texere inspect --json` prints, and in `checked` what `texere check --json` prints.
     inspected: CString,
     checked: CString,
 }
@@ -40,24 +41,30 @@ impl Handle for texere_check {
     const NAME: &str = "check";
 }
 
-/// The share by which yarns may come short of touching and still count as touching, as a rule.
+/// The usual `accuracy` of `texere_check_new`: the share by which yarns may come short of touching
+/// and still count as touching.
 pub const TEXERE_ACCURACY: f64 = 0.015;
 
-/// More yarn lies in a place than there is room for, or too many parts of yarns to measure them
-/// pair by pair. The value is the yarns' volume over the room.
+/// At a place there is more yarn than room, or so many parts of yarns that they can't be measured
+/// pair by pair. The value is the volume of the yarns over the room.
 pub const TEXERE_FAULT_CROWDED: u32 = 0;
-/// Two yarns pierce one another. The value is how near they come: 1 where they just touch.
+/// Two yarns pierce one another. The value is how near they come: 1 if they just touch, less if
+/// they pierce.
 pub const TEXERE_FAULT_PIERCES: u32 = 1;
-/// A bend is tighter than the tube is thick. The value is its radius in radii of the yarn.
+/// A bend is so tight that the tube folds into itself. The value is the radius of the bend over how
+/// far the yarn's section reaches into the bend; below 1 the tube folds.
 pub const TEXERE_FAULT_FOLDS: u32 = 2;
-/// A thread lies too close to the one before for crossing threads to pass. The value is their
-/// distance over the one that is needed. There is no one place.
+/// A thread lies so close to the thread before it that crossing threads can't pass between the two.
+/// The value is their distance over the distance that is needed. The fault has no single place.
 pub const TEXERE_FAULT_JAMS: u32 = 3;
-/// The cloth does not hang together. The value is the number of its pieces. There is no one place.
+/// The cloth does not hang together. The value is the number of its pieces. The fault has no single
+/// place.
 pub const TEXERE_FAULT_APART: u32 = 4;
-/// The mesh is wrung between two rings. The value is its width there in radii of the yarn.
+/// The mesh is wrung: narrowed because two neighbouring rings are turned against one another. The
+/// value is the width half way between the two, as a share of the width on the rings.
 pub const TEXERE_FAULT_WRUNG: u32 = 5;
-/// Triangles of the mesh face inwards. The value is how many; the place is that of the first.
+/// Triangles of the mesh face inwards. The value is how many; the place is that of the first
+/// triangle.
 pub const TEXERE_FAULT_INSIDE_OUT: u32 = 6;
 /// A knitting machine can't do a step of the program. There is neither a value nor a place.
 pub const TEXERE_FAULT_MACHINE: u32 = 7;
@@ -66,52 +73,59 @@ pub const TEXERE_FAULT_MACHINE: u32 = 7;
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_fault {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// A number that begins with TEXERE_FAULT; it says what `value` is.
+    /// A constant whose name begins with TEXERE_FAULT; it says what `value` is.
     pub kind: u32,
-    /// How bad it is. NaN where the kind has no value.
+    /// How bad the fault is, as its kind says. NaN if the kind has no value.
     pub value: f64,
-    /// Where it is, mm. NaN where it has no one place.
+    /// Where the fault is, mm. NaN if it has no single place.
     pub position: [f64; 3],
-    /// The fault in words, with the threads that it is of: UTF-8 that ends with a zero byte, valid
+    /// The fault in words, with the names of its threads: UTF-8 that ends with a zero byte, valid
     /// until the check is freed.
     pub words: *const c_char,
 }
 
-/// What a check has found.
+grows_after!(texere_fault, words);
+
+/// The result of a check.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_diagnosis {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// 1 if there is no fault, else 0.
     pub clean: u32,
     /// "clean", or the faults in one phrase, such as "pierces itself, folds": UTF-8 that ends with
     /// a zero byte, valid until the check is freed.
     pub words: *const c_char,
-    /// Contacts that are nearer than this pierce.
+    /// The clearance below which two yarns count as piercing one another.
     pub touching: f64,
-    /// How near yarns come to one another at the least: 1 where they just touch. Infinite where
-    /// none come near; NaN where all places are crowded.
+    /// The least clearance, which says how near yarns come to one another: 1 if they just touch,
+    /// less if they pierce. Infinite if no yarns come near one another; NaN if all places where
+    /// they do are too crowded to be measured.
     pub clearance: f64,
-    /// How many places there are where two yarns come near one another.
+    /// How many contacts there are: places where two yarns come near one another.
     pub contacts: u64,
-    /// How many of the contacts are nearer than 1 by more than 0.001.
+    /// How many contacts have a clearance below 1 by more than 0.001.
     pub below_one: u64,
-    /// The radius of the tightest bend in radii of the yarn. Infinite where all yarns are straight.
+    /// The radius of the tightest bend over how far the yarn's section reaches into it, which is
+    /// the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
     pub bend: f64,
-    /// The least width of a tube of the mesh half way between two rings, in radii of the yarn.
+    /// The least width of a tube of the mesh half way between two rings, as a share of the width on
+    /// the rings.
     pub width: f64,
     /// How many triangles of the mesh face inwards.
     pub inwards: u64,
-    /// How many faults `texere_check_fault` gives: 100 of each kind at most.
+    /// How many faults `texere_check_fault` writes. At most 100 of a kind are listed.
     pub faults: u64,
-    /// How many warnings `texere_check_warning` gives.
+    /// How many warnings `texere_check_warning` lends.
     pub warnings: u64,
 }
 
-/// A fault, with words that can be lent.
+grows_after!(texere_diagnosis, warnings);
+
+/// A fault, with words that the library lends to the caller.
 #[derive(Debug)]
 struct Fault {
     kind: u32,
@@ -126,7 +140,7 @@ impl Fault {
         Self { kind, value, position, words }
     }
 
-    /// A fault at a place on a thread, if it has one.
+    /// A fault at a place on a thread, if the place is known.
     fn at(kind: u32, value: f64, place: Option<&ThreadPlace>, words: String) -> Self {
         let words = place.map_or(words.clone(), |place| format!("{place}: {words}"));
         Self::new(kind, value, place.map(|place| place.position_mm), words)
@@ -137,7 +151,7 @@ fn json(report: &impl Serialize) -> Result<CString, Failure> {
     Ok(lendable(serde_json::to_string_pretty(report)?))
 }
 
-/// The faults of a cloth, and of the program that knits it.
+/// The faults of a cloth, and the faults of the program that knits it.
 fn faults(cloth: &Cloth, Diagnosis { faults, .. }: &Diagnosis) -> Vec<Fault> {
     let mut all = Vec::new();
     if let Some(crowd) = &faults.crowded {
@@ -179,7 +193,7 @@ fn faults(cloth: &Cloth, Diagnosis { faults, .. }: &Diagnosis) -> Vec<Fault> {
     all
 }
 
-/// The share of the progress that measuring takes. The rest of it is for finding cures.
+/// The share of the progress that measuring takes. The search for cures takes the rest.
 const MEASURED: f64 = 0.5;
 
 impl Checked {
@@ -197,7 +211,8 @@ impl Checked {
         let mut checked = CheckReport::new(of, settling(), accuracy, &settings, clearance);
         let mut asked = progress(MEASURED);
         if checked.verdict().is_some() {
-            // Cures that were found before a stop are given without an error.
+            // `find_cures` returns no error when the progress asks it to stop: it keeps the cures
+            // found so far.
             checked.find_cures(of, |share| {
                 asked = progress(MEASURED + (1.0 - MEASURED) * share);
                 asked
@@ -235,15 +250,15 @@ impl Checked {
     }
 }
 
-/// Checks a cloth: measures how near its yarns come to one another and how tightly they bend, looks
-/// for faults, and for single changes of the design that cure them. A mesh with `settings` is
-/// looked at, too; they may be null: `texere_settings_default` says what holds then. Yarns that
-/// come short of touching by more than the share `accuracy` pierce: TEXERE_ACCURACY is usual. `run`
-/// may be null.
+/// Checks a cloth: measures how near its yarns come to one another and how tightly they bend, and
+/// looks for faults and for single changes of the design that cure them. It also looks for faults
+/// of a mesh with `settings`, which may be null: then those of `texere_settings_default` apply. Two
+/// yarns pierce one another if they come short of touching by more than the share `accuracy`.
+/// TEXERE_ACCURACY is usual. `run` may be null.
 ///
-/// A cloth with faults is no failure of the call. It fails with TEXERE_ARGUMENT for settings out of
-/// range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED where `run`
-/// was cancelled.
+/// The call succeeds for a cloth with faults. It fails with TEXERE_ARGUMENT for settings out of
+/// range and for an accuracy that is not from 0 to below 1, and with TEXERE_CANCELLED if `run` was
+/// cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_check_new(
     cloth: *const texere_cloth,
@@ -266,7 +281,7 @@ pub unsafe extern "C" fn texere_check_new(
     })
 }
 
-/// Writes what a check has found. The caller has set `diagnosis->struct_size`.
+/// Writes the result of a check. The caller sets `diagnosis->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_check_diagnosis(
     check: *const texere_check,
@@ -276,15 +291,15 @@ pub unsafe extern "C" fn texere_check_diagnosis(
         // SAFETY: the caller vouches for `diagnosis`.
         unsafe { check_sized("diagnosis", diagnosis) }?;
         let found = get(check)?.diagnosis();
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { diagnosis.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(diagnosis, found) };
         Ok(())
     })
 }
 
-/// Writes the fault of a number, from 0. The caller has set `fault->struct_size`.
+/// Writes fault `number`, counted from 0. The caller sets `fault->struct_size` before the call.
 ///
-/// Fails with TEXERE_ARGUMENT where there are fewer.
+/// Fails with TEXERE_ARGUMENT for a number that is too high.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_check_fault(
     check: *const texere_check,
@@ -298,16 +313,16 @@ pub unsafe extern "C" fn texere_check_fault(
         let Fault { kind, value, position, words } = numbered("fault", &check.faults, number)?;
         let struct_size = size_of::<texere_fault>() as u32;
         let (kind, value, position, words) = (*kind, *value, *position, words.as_ptr());
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { fault.write(texere_fault { struct_size, kind, value, position, words }) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(fault, texere_fault { struct_size, kind, value, position, words }) };
         Ok(())
     })
 }
 
-/// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-/// until the check is freed. A warning is no fault.
+/// Lends warning `number`, counted from 0: writes its address to `words`. It is UTF-8 that ends
+/// with a zero byte, valid until the check is freed. Warnings do not count as faults.
 ///
-/// Fails with TEXERE_ARGUMENT where there are fewer.
+/// Fails with TEXERE_ARGUMENT for a number that is too high.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_check_warning(
     check: *const texere_check,
@@ -343,7 +358,7 @@ pub unsafe extern "C" fn texere_check_measures_json(
     guard(|| unsafe { lend("json", &get(check)?.inspected, json) })
 }
 
-/// Frees a check, or nothing where it is null.
+/// Frees a check. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_check_free(check: *mut texere_check) {
     free(check);

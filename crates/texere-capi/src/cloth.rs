@@ -1,4 +1,4 @@
-//! Cloth: what becomes of a design.
+//! Cloth: the yarns of a design, as placed or at rest.
 
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
@@ -6,26 +6,28 @@ use std::sync::OnceLock;
 use texere::check::Measures;
 use texere::rest::RestReport;
 
-use crate::argument::{check_sized, lend, numbered};
+use crate::argument::{lend, numbered};
 use crate::design::texere_design;
 use crate::device::texere_device;
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, get_any, give};
 use crate::lendable::lendable;
 use crate::run::{reporter, texere_run};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// The cloth of a design: its yarns, and how they came to rest.
+/// The cloth of a design: its yarns, and whether they came to rest.
 #[derive(Debug)]
 pub struct texere_cloth;
 
 #[derive(Debug)]
 pub(crate) struct Cloth {
     pub(crate) cloth: texere::Cloth,
-    /// The name of the device on which it came to rest.
+    /// The name of the device that `texere_cloth_rest` was given; empty for a cloth of
+    /// `texere_cloth_placed`.
     pub(crate) device: String,
-    /// Taken when they are first asked for.
+    /// The measures. They are taken when they are first asked for.
     pub(crate) measures: OnceLock<Measures>,
     outcome: u32,
     words: CString,
@@ -37,28 +39,33 @@ impl Handle for texere_cloth {
     const NAME: &str = "cloth";
 }
 
-/// The yarns are where the structure places them: the design does not ask for more.
+/// The yarns are where the structure places them, because the design does not ask that they come to
+/// rest, or because `texere_cloth_placed` made the cloth.
 pub const TEXERE_PLACED: u32 = 0;
 /// The yarns came to rest.
 pub const TEXERE_AT_REST: u32 = 1;
-/// The yarns settled and are not at rest; `words` of the report says what is left.
+/// The yarns settled without coming to rest. `words` of the report is "not at rest", or "jammed,
+/// not at rest" if the yarns of a knit have no room.
 pub const TEXERE_NOT_AT_REST: u32 = 2;
-/// The yarns are where the structure places them, for they can't come to rest; `words` says why.
+/// The yarns are where the structure places them, because they can't come to rest. `words` of the
+/// report says why.
 pub const TEXERE_REFUSED: u32 = 3;
 
-/// How the yarns of a cloth came to rest.
+/// Whether the yarns of a cloth came to rest.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_report {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// TEXERE_PLACED, TEXERE_AT_REST, TEXERE_NOT_AT_REST or TEXERE_REFUSED.
     pub outcome: u32,
     /// The outcome in words, UTF-8 that ends with a zero byte, valid until the cloth is freed.
     pub words: *const c_char,
-    /// How many warnings `texere_cloth_warning` gives.
+    /// How many warnings the cloth has: `texere_cloth_warning` lends them.
     pub warnings: u64,
 }
+
+grows_after!(texere_report, warnings);
 
 impl Cloth {
     fn new(cloth: texere::Cloth, device: &str) -> Self {
@@ -75,12 +82,13 @@ impl Cloth {
     }
 }
 
-/// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` where the
+/// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
 /// design asks for it. `run` may be null.
 ///
-/// Where yarns can't come to rest the call succeeds all the same, with the yarns as they are
-/// placed: `texere_cloth_report` says why. It fails with TEXERE_DESIGN where the cloth can't be
-/// made, and with TEXERE_CANCELLED where `run` was cancelled.
+/// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
+/// woven cloth that can't settle at all stay where the structure places them. The call fails with
+/// TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
+/// yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_rest(
     design: *const texere_design,
@@ -98,9 +106,10 @@ pub unsafe extern "C" fn texere_cloth_rest(
     })
 }
 
-/// Makes the cloth of a design with its yarns as the structure places them, whatever it asks for.
+/// Makes the cloth of a design with its yarns where the structure places them, even if the design
+/// asks that they come to rest.
 ///
-/// Fails with TEXERE_DESIGN where the cloth can't be made.
+/// Fails with TEXERE_DESIGN if the cloth can't be made.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_placed(
     design: *const texere_design,
@@ -115,7 +124,8 @@ pub unsafe extern "C" fn texere_cloth_placed(
     })
 }
 
-/// Writes how the yarns of a cloth came to rest. The caller has set `report->struct_size`.
+/// Writes whether the yarns of a cloth came to rest. The caller sets `report->struct_size` before
+/// the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_report(
     cloth: *const texere_cloth,
@@ -131,16 +141,16 @@ pub unsafe extern "C" fn texere_cloth_report(
             words: cloth.words.as_ptr(),
             warnings: cloth.warnings.len() as u64,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { report.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(report, found) };
         Ok(())
     })
 }
 
-/// Writes the warning of a number, from 0, to `words`: UTF-8 that ends with a zero byte, valid
-/// until the cloth is freed.
+/// Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
+/// that ends with a zero byte, valid until the cloth is freed.
 ///
-/// Fails with TEXERE_ARGUMENT where there are fewer.
+/// Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_warning(
     cloth: *const texere_cloth,
@@ -169,7 +179,7 @@ pub unsafe extern "C" fn texere_cloth_yarns(
     })
 }
 
-/// Frees a cloth, or nothing where it is null.
+/// Frees a cloth. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_free(cloth: *mut texere_cloth) {
     free(cloth);

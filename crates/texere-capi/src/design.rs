@@ -1,4 +1,4 @@
-//! Designs: from a file, or from memory; and to a file.
+//! Designs: reading them from a file or from memory, and writing them to a file.
 
 use std::ffi::{c_char, c_void};
 use std::io;
@@ -12,8 +12,8 @@ use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
 
-/// A design: a WIF draft, a design file or a program of a knitting machine that was read, or a
-/// structure by arrays.
+/// A design: read from a WIF draft, a design file or a program of a knitting machine, or made from
+/// the caller's arrays.
 #[derive(Debug)]
 pub struct texere_design;
 
@@ -22,9 +22,10 @@ impl Handle for texere_design {
     const NAME: &str = "design";
 }
 
-/// Gives the bytes of a file that a design names, such as a picture: sets `*data` and `*size`, and
-/// gives 0. Anything else than 0 says that there is no such file. The bytes have to stay valid
-/// until the function that was given this callback returns. `path` is UTF-8 of `path_length` bytes.
+/// Gives the library the bytes of a file that a design names, such as a picture: sets `*data` and
+/// `*size`, and returns 0. Any other return value says that there is no such file. The bytes have
+/// to stay valid until the function that was given this callback returns. `path` is UTF-8 of
+/// `path_length` bytes.
 pub type texere_file_callback = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -35,10 +36,11 @@ pub type texere_file_callback = Option<
     ) -> i32,
 >;
 
-/// Reads the design in a file: `.wif`, `.toml`, `.k`.
+/// Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
+/// knitting machine (`.k`).
 ///
-/// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it is no design;
-/// `texere_error_place` says where.
+/// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
+/// design; `texere_error_place` then says where it is at fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_read(
     path: *const c_char,
@@ -54,9 +56,9 @@ pub unsafe extern "C" fn texere_design_read(
     })
 }
 
-/// Reads a design that the caller has in memory. `name` says by its ending what kind of design it
-/// is; errors call it so. `files` gives the files that the design names; it may be null, and then
-/// there are none. `user` is handed to it.
+/// Reads a design that the caller has in memory. `name` stands for the file's name: its ending says
+/// what kind of design it is, and errors show it. `files` is called for each file that the design
+/// names, with `user` as its first argument. `files` may be null if the design names no files.
 ///
 /// Fails as `texere_design_read` does.
 #[unsafe(no_mangle)]
@@ -94,11 +96,13 @@ pub unsafe extern "C" fn texere_design_read_memory(
     })
 }
 
-/// Writes woven cloth to a file that `texere_design_read` reads: `.toml` for texere's own design
-/// file, `.wif` for a WIF 1.1 draft, which leaves out what drafts don't have. A file of that name
-/// is replaced once the new one is whole.
+/// Writes a design of woven cloth to a file that `texere_design_read` reads. The ending of `path`
+/// says which: `.toml` for texere's own design file, `.wif` for a WIF 1.1 draft, which leaves out
+/// what drafts don't have. An existing file of that name is replaced only once the new one is
+/// complete.
 ///
-/// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_IO where the file can't be written.
+/// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a knit, and with
+/// TEXERE_IO if the file can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_write(
     design: *const texere_design,
@@ -122,7 +126,7 @@ pub unsafe extern "C" fn texere_design_write(
     })
 }
 
-/// Frees a design, or nothing where it is null. Cloths that were made of it stay valid.
+/// Frees a design. A null handle is allowed. Cloths that were made of the design stay valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_free(design: *mut texere_design) {
     free(design);

@@ -1,14 +1,15 @@
-//! Devices.
+//! Devices: opening and describing them.
 
 use std::ffi::{CString, c_char};
 use std::sync::Arc;
 
 use texere::Backend;
 
-use crate::argument::{check_sized, text};
+use crate::argument::text;
 use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::lendable::lendable;
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 
 /// An open device: a GPU, or the CPU.
@@ -18,7 +19,7 @@ pub struct texere_device;
 #[derive(Debug)]
 pub(crate) struct Device {
     pub(crate) backend: Arc<dyn Backend>,
-    /// Its name, its maker's name of it and its driver, as C reads them.
+    /// The name that opens the device, the maker's name of it, and its driver.
     names: [CString; 3],
 }
 
@@ -27,29 +28,32 @@ impl Handle for texere_device {
     const NAME: &str = "device";
 }
 
-/// What a device is. Strings end with a zero byte and are valid until the device is freed.
+/// A description of a device. Its strings end with a zero byte and are valid until the device is
+/// freed.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_device_info {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 if yarns can come to rest on it, else 0.
+    /// 1 if yarns of all structures can come to rest on it, else 0.
     pub settles: u32,
-    /// The name that opens it, such as "cpu" or "opencl:0".
+    /// The name that opens the device, such as "cpu" or "opencl:0".
     pub name: *const c_char,
-    /// The device as its maker calls it.
+    /// The maker's name of the device.
     pub device: *const c_char,
     /// Its driver, with the version.
     pub driver: *const c_char,
-    /// Bytes of memory that it has; 0 where it does not say so.
+    /// How much memory the device has, bytes; 0 if it is not known.
     pub memory_bytes: u64,
 }
 
-/// Opens the device of a name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
+grows_after!(texere_device_info, memory_bytes);
+
+/// Opens a device by its name: "auto" for the best one, "cpu", "cpu-serial", "opencl", "opencl:1",
 /// "wgpu" and so on. A `name_length` of 0 is "auto".
 ///
-/// Fails with TEXERE_DEVICE where there is none of that name, and with TEXERE_UNSUPPORTED where the
-/// library was built without it.
+/// Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
+/// library was built without the API that it needs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_device_open(
     name: *const c_char,
@@ -70,7 +74,7 @@ pub unsafe extern "C" fn texere_device_open(
     })
 }
 
-/// Writes what a device is. The caller has set `info->struct_size`.
+/// Writes a description of a device. The caller sets `info->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_device_describe(
     device: *const texere_device,
@@ -90,13 +94,13 @@ pub unsafe extern "C" fn texere_device_describe(
             driver,
             memory_bytes: is.memory_bytes.unwrap_or(0),
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { info.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(info, found) };
         Ok(())
     })
 }
 
-/// Frees a device, or nothing where it is null. What was made with it stays valid.
+/// Frees a device. A null handle is allowed. Handles that were made with the device stay valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_device_free(device: *mut texere_device) {
     free(device);

@@ -14,11 +14,12 @@ use crate::status::texere_status;
 use crate::structure::choice;
 
 /// Draws a design on squared paper, in a `.png` file: the draft or the point paper of woven cloth,
-/// the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 for the cloth
-/// turned over sideways, else 0. A file of that name is replaced once the new one is whole.
+/// the stitch chart of a weft knit, the lapping diagram of a warp knit. `back` is 1 to show the
+/// cloth turned over sideways, else 0. An existing file of that name is replaced only once the new
+/// one is complete.
 ///
-/// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO where the
-/// file can't be written.
+/// Fails with TEXERE_ARGUMENT for a cloth that is too large to draw, and with TEXERE_IO if the file
+/// can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_draft(
     design: *const texere_design,

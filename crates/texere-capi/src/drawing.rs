@@ -1,8 +1,8 @@
-//! Pictures by the facade: a renderer, and what it shows.
+//! Pictures made with the crate `texere`: a renderer and the scene that it shows.
 
 use std::ops::ControlFlow;
 
-use texere::picture::{Background, Camera, Cut, Pose, Quality, Renderer, Scene, picture_sides};
+use texere::picture::{Background, Camera, Cut, Pose, Quality, RenderError, Renderer, Scene, picture_sides};
 use texere::yarn::Origin;
 use texere::{Settings, Yarns};
 
@@ -22,15 +22,19 @@ impl Drawing {
         Ok(Self { renderer: texere::picture::open_renderer(name)?, scene: None })
     }
 
-    /// Shows `yarns` from now on, meshed with `settings`, or else with what suits a picture.
+    /// Shows `yarns` from now on, meshed with `settings`. `None` stands for settings that suit a
+    /// picture.
     pub(crate) fn show(
         &mut self,
         yarns: &Yarns,
         settings: Option<Settings>,
-        progress: impl FnMut(f64) -> ControlFlow<()>,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(), Failure> {
-        // The scene before may take the memory that this one needs.
+        // The previous scene is dropped first, because the new one may need its memory.
         self.scene = None;
+        if progress(0.0).is_break() {
+            return Err(RenderError::Cancelled.into());
+        }
         let settings = settings.unwrap_or_else(|| usual(yarns));
         self.scene = Some(self.renderer.scene_with_progress(yarns, &settings, progress)?);
         Ok(())
@@ -66,8 +70,8 @@ fn nothing_shown() -> Failure {
     Failure::argument("the renderer shows no yarns: texere_renderer_show gives it some")
 }
 
-/// The settings for a picture of `yarns`. Threads of woven cloth lie so close that they take more
-/// sides.
+/// The usual settings for a picture of `yarns`. Threads of woven cloth lie so close together that
+/// they get more sides: with few, the ground would show past their corners.
 fn usual(yarns: &Yarns) -> Settings {
     let origins = || yarns.layout().yarns().iter().map(|yarn| yarn.origin);
     let is_woven = origins().any(|origin| matches!(origin, Origin::End(_)))

@@ -1,9 +1,10 @@
-//! Edits of live cloth: lifts, yarns, materials, tension, structure, yarns at rest.
+//! Edits of live cloth: its lifts, yarns, materials, tension and structure, and yarns that have
+//! come to rest.
 
 use texere::yarn::Material;
 use texere::{ControlPoint, Yarn};
 
-use crate::argument::{check, check_sized, flag, sized, slice};
+use crate::argument::{check, flag, slice};
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
@@ -11,30 +12,33 @@ use crate::handle::{alone, get};
 use crate::lendable::lendable;
 use crate::live::{Editing, Known, texere_live};
 use crate::material::texere_material;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::{texere_point, texere_yarns};
 
-/// What a yarn is made of, apart from its control points.
+/// Properties of a yarn apart from its control points.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_yarn {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// Its material, from 0.
+    /// The number of its material, counted from 0.
     pub material: u32,
-    /// Its section, from 0.
+    /// The number of its section, counted from 0.
     pub section: u32,
     /// 1 if its last control point joins up with its first, else 0.
     pub closed: u32,
-    /// Its twist, radians a mm; positive is Z twist.
+    /// Its twist, radians per mm; positive is Z twist.
     pub twist: f32,
 }
 
-/// Sets whether the warp is up where an end and a pick cross; both count from 0. Both threads then
-/// lie as they are woven.
+grows_after!(texere_yarn, twist);
+
+/// Sets whether the warp is up where an end and a pick cross. Ends and picks count from 0. Both
+/// threads then lie as the structure places them, even if they lay otherwise before.
 ///
-/// Fails with TEXERE_ARGUMENT where there is no such crossing, where `up` is neither 0 nor 1, and
-/// in cloth that is not woven or that is known by its yarns alone.
+/// Fails with TEXERE_ARGUMENT if there is no such crossing, if `up` is neither 0 nor 1, and if the
+/// cloth has no weave: because it is a knit, or because only its yarns were given.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_lift(
     live: *const texere_live,
@@ -48,9 +52,9 @@ pub unsafe extern "C" fn texere_live_set_lift(
     })
 }
 
-/// Sets many lifts at once: those of `ends` ends from `first_end` on and `picks` picks from
-/// `first_pick` on. `up` has a byte for each crossing, 1 where the warp is up, else 0: pick after
-/// pick, and in each the ends in order.
+/// Sets many lifts at once: where `ends` ends from `first_end` on cross `picks` picks from
+/// `first_pick` on. `up` has a byte for each of these crossings, 1 if the warp is up, else 0. The
+/// bytes lie pick after pick, and those of a pick in the order of the ends.
 ///
 /// Fails as `texere_live_set_lift` does.
 #[unsafe(no_mangle)]
@@ -79,7 +83,8 @@ pub unsafe extern "C" fn texere_live_set_drawdown(
     })
 }
 
-/// Writes to `up` 1 if the warp is up where an end and a pick cross, else 0; both count from 0.
+/// Writes to `up` 1 if the warp is up where an end and a pick cross, else 0. Ends and picks count
+/// from 0.
 ///
 /// Fails as `texere_live_set_lift` does.
 #[unsafe(no_mangle)]
@@ -103,16 +108,16 @@ pub unsafe extern "C" fn texere_live_lift(
             }
             Ok(drawdown.up(end, pick))
         })?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { up.write(found.into()) };
         Ok(())
     })
 }
 
-/// Replaces a yarn, counted from 0: what it is made of and its control points, which may be more or
-/// fewer than before.
+/// Replaces a yarn, counted from 0: its properties and its control points. There may be more or
+/// fewer points than before.
 ///
-/// Fails with TEXERE_ARGUMENT for a yarn, material or section that there is not, and for points
+/// Fails with TEXERE_ARGUMENT if there is no such yarn, material or section, and for control points
 /// that no yarn can have. The cloth then stays as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_yarn(
@@ -134,7 +139,7 @@ pub unsafe extern "C" fn texere_live_set_yarn(
     })
 }
 
-/// Gives a yarn, counted from 0, other control points, which may be more or fewer than before.
+/// Gives a yarn, counted from 0, other control points. There may be more or fewer than before.
 ///
 /// Fails as `texere_live_set_yarn` does.
 #[unsafe(no_mangle)]
@@ -152,10 +157,10 @@ pub unsafe extern "C" fn texere_live_set_points(
     })
 }
 
-/// Writes what a yarn is made of as it is now. Its control points are those of `texere_live_yarns`.
-/// The caller has set `what->struct_size`.
+/// Writes the properties of a yarn, counted from 0, as they are now. `texere_live_yarns` gives its
+/// control points. The caller sets `what->struct_size` before the call.
 ///
-/// Fails with TEXERE_ARGUMENT where there is no such yarn.
+/// Fails with TEXERE_ARGUMENT if there is no such yarn.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_yarn(
     live: *const texere_live,
@@ -168,15 +173,19 @@ pub unsafe extern "C" fn texere_live_yarn(
         let [yarn] = number([("yarn", yarn)])?;
         let Yarn { material, section, closed, twist, .. } = alone(live, |editing| yarn_of(editing, yarn))?;
         let struct_size = size_of::<texere_yarn>() as u32;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { what.write(texere_yarn { struct_size, material, section, closed: closed.into(), twist }) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe {
+            write_sized(what, texere_yarn { struct_size, material, section, closed: closed.into(), twist })
+        };
         Ok(())
     })
 }
 
-/// Changes a material, counted from 0. A mesh holds no colours, so an update makes nothing again.
+/// Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
+/// again.
 ///
-/// Fails with TEXERE_ARGUMENT where there is no such material, and for one that no yarn can have.
+/// Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
+/// have.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_material(
     live: *const texere_live,
@@ -185,17 +194,19 @@ pub unsafe extern "C" fn texere_live_set_material(
 ) -> texere_status {
     guard(|| {
         check("material", material)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest, and for the name.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest, and
+        // for the name.
         let material = unsafe { material.read().read("material") }?;
         let [number] = self::number([("number", number)])?;
         alone(live, |editing| Ok(editing.live.set_material(number, material)?))
     })
 }
 
-/// Writes a material as it is now, counted from 0. Its name ends with a zero byte and is valid
-/// until the next call of this function with this live cloth, or until that is freed.
+/// Writes a material, counted from 0, as it is now. Its name ends with a zero byte. The name is
+/// valid until the next call of this function with this live cloth, or until the live cloth is
+/// freed.
 ///
-/// Fails with TEXERE_ARGUMENT where there is no such material.
+/// Fails with TEXERE_ARGUMENT if there is no such material.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_material(
     live: *const texere_live,
@@ -222,25 +233,26 @@ pub unsafe extern "C" fn texere_live_material(
                 name_length: editing.name.count_bytes(),
             })
         })?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { material.write(found) };
         Ok(())
     })
 }
 
-/// Sets the tension of the splines of all yarns, from 0 to below 1. The whole mesh is made again.
+/// Sets the tension of the splines of all yarns, from 0 to below 1. The next update makes the whole
+/// mesh again.
 ///
-/// Fails with TEXERE_ARGUMENT for another tension.
+/// Fails with TEXERE_ARGUMENT for a tension outside these limits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_tension(live: *const texere_live, tension: f32) -> texere_status {
     guard(|| alone(live, |editing| Ok(editing.live.set_tension(tension)?)))
 }
 
 /// Replaces the structure by that of a design, such as a knit with another stitch or a weave with
-/// other threads. Yarns lie as the structure places them. The tension of splines stays. Yarns that
-/// are the same in both are not made again.
+/// other threads. The yarns lie as the new structure places them. The tension of splines stays. The
+/// next update does not make yarns again that are the same in both structures.
 ///
-/// Fails with TEXERE_DESIGN where the yarns of the structure can't be made, and as
+/// Fails with TEXERE_DESIGN if the yarns of the structure can't be made, and as
 /// `texere_live_of_cloth` does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_structure(
@@ -257,10 +269,11 @@ pub unsafe extern "C" fn texere_live_set_structure(
     })
 }
 
-/// Replaces all yarns. Yarns that are the same in both are not made again. The cloth is known by
-/// its yarns alone from then on: lifts can't be set.
+/// Replaces all yarns. The next update does not make yarns again that stay the same. From then on
+/// the live cloth has no weave, so its lifts can't be set.
 ///
-/// Fails with TEXERE_ARGUMENT for yarns of another tension, and as `texere_live_of_cloth` does.
+/// Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, and as
+/// `texere_live_of_cloth` does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_yarns(
     live: *const texere_live,
@@ -276,11 +289,11 @@ pub unsafe extern "C" fn texere_live_set_yarns(
     })
 }
 
-/// Replaces all yarns by those of the same cloth at rest, and keeps the weave. Threads whose lifts
-/// are set later lie as they are woven, among those at rest.
+/// Replaces all yarns by those of the same cloth at rest, and keeps the weave. A thread whose lift
+/// is set later lies as the structure places it, among the yarns at rest.
 ///
-/// Fails with TEXERE_ARGUMENT for yarns of another tension, and where there are more or fewer yarns
-/// or sections than the cloth has.
+/// Fails with TEXERE_ARGUMENT for yarns whose splines have another tension, for more or fewer yarns
+/// than the live cloth has, and for other sections.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_set_rest(
     live: *const texere_live,
@@ -292,7 +305,7 @@ pub unsafe extern "C" fn texere_live_set_rest(
     })
 }
 
-/// Numbers of the caller's as this machine counts.
+/// Numbers of the caller's as `usize`. Fails for a number that does not fit.
 fn number<const COUNT: usize>(given: [(&str, u64); COUNT]) -> Result<[usize; COUNT], Failure> {
     let mut numbers = [0; COUNT];
     for (own, (name, given)) in numbers.iter_mut().zip(given) {
@@ -302,7 +315,7 @@ fn number<const COUNT: usize>(given: [(&str, u64); COUNT]) -> Result<[usize; COU
     Ok(numbers)
 }
 
-/// What yarn number `yarn` is made of as it is now.
+/// Properties of yarn number `yarn` as they are now.
 fn yarn_of(editing: &mut Editing, yarn: usize) -> Result<Yarn, Failure> {
     let yarns = editing.live.mesh().plan().layout().yarns();
     let missing = || texere::mesh::LiveError::NoYarn { yarn, yarns: yarns.len() };

@@ -11,7 +11,7 @@ use crate::lendable::lendable;
 use crate::status::texere_status;
 use crate::status::texere_status::TEXERE_OK;
 
-/// What the last call that failed on a thread has left.
+/// What a thread keeps of the last of its calls that failed.
 #[derive(Default)]
 struct Last {
     message: CString,
@@ -22,7 +22,8 @@ thread_local! {
     static LAST: RefCell<Last> = RefCell::default();
 }
 
-/// Does the work of a call, and keeps what went wrong. No panic gets out.
+/// Runs `call`, the work of a function of the header. An error or a panic becomes the last failure
+/// of this thread. No panic leaves the library.
 pub(crate) fn guard(call: impl FnOnce() -> Result<(), Failure>) -> texere_status {
     let done = catch_unwind(AssertUnwindSafe(call));
     let Err(failure) = done.unwrap_or_else(|panic| Err(Failure::panicked(&*panic))) else {
@@ -34,9 +35,9 @@ pub(crate) fn guard(call: impl FnOnce() -> Result<(), Failure>) -> texere_status
     status
 }
 
-/// What went wrong in the last call of this thread that failed, with all its causes, in one line of
-/// UTF-8 that ends with a zero byte. It is empty where none has failed, and valid until the next
-/// call of this thread fails.
+/// What went wrong in the last call of this thread that failed, with all causes: UTF-8 that ends
+/// with a zero byte. The text is empty if no call of this thread has failed. It is valid until the
+/// next call of this thread fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn texere_error_message() -> *const c_char {
     LAST.with_borrow(|last| last.message.as_ptr())
@@ -46,16 +47,16 @@ pub extern "C" fn texere_error_message() -> *const c_char {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_place {
-    /// The file's name, UTF-8 that ends with a zero byte; null where the error has no place. It is
-    /// valid until the next call of this thread fails.
+    /// The file's name, UTF-8 that ends with a zero byte; null if the error has no place. The name
+    /// is valid until the next call of this thread fails.
     pub file: *const c_char,
-    /// The line, from 1; 0 where it is not known.
+    /// The line, counted from 1; 0 if it is not known.
     pub line: u64,
-    /// The column, in letters from 1; 0 where it is not known.
+    /// The column, in letters counted from 1; 0 if it is not known.
     pub column: u64,
 }
 
-/// Where in a design's file the last call of this thread that failed has found the fault.
+/// Writes where the last failure of this thread lies: its place in a design's file.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `place`.
 #[unsafe(no_mangle)]

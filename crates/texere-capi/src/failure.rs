@@ -1,18 +1,17 @@
-//! What went wrong in a call: its status, its words, its place in a file.
+//! What went wrong in a call: the status, the message, and the place in a design's file.
 
 use std::any::Any;
 use std::error::Error;
 use std::ffi::CString;
 use std::io;
 use std::iter::successors;
-use std::path::Path;
 
 use texere::backend::{OutOfMemory, SessionError};
 use texere::check::ContactError;
 use texere::mesh::{LiveError, PickError};
 #[cfg(feature = "render")]
 use texere::picture::RenderError;
-use texere::read::{FilePlace, Refusal};
+use texere::read::{FaultPlace, Refusal, fault_place};
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::woven::WovenError;
 use texere::{BackendError, FabricError, PipelineError, ReadError, WriteError};
@@ -59,12 +58,18 @@ impl<E: Error + 'static> From<E> for Failure {
         let causes = || successors(Some(error), |error: &&(dyn Error + 'static)| (*error).source());
         let message = causes().map(ToString::to_string).collect::<Vec<_>>().join(": ");
         let status = causes().filter_map(status_of).last().unwrap_or(TEXERE_ARGUMENT);
-        Self { status, message, place: causes().filter_map(place_of).last() }
+        let place = fault_place(error).map(|FaultPlace { file, line, column }| Place {
+            file: lendable(file.to_string_lossy()),
+            line: line as u64,
+            column: column as u64,
+        });
+        Self { status, message, place }
     }
 }
 
-/// The status of an error by itself, where it decides one. A cause decides over what it led to:
-/// memory that ran out while a design was read is no fault of the design.
+/// The status that an error has by itself, without its causes, or `None` if it has none. A
+/// `Failure` takes the status of the deepest cause that has one: if memory runs out while a design
+/// is read, the status is TEXERE_MEMORY and not TEXERE_DESIGN.
 fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if error.is::<OutOfMemory>() {
         return Some(TEXERE_MEMORY);
@@ -72,14 +77,14 @@ fn status_of(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if error.is::<Answer>() {
         return Some(TEXERE_CANCELLED);
     }
-    // What an error of the system holds is none of its causes.
+    // `source` of an `io::Error` passes over the error that it wraps, so that error is asked here.
     if let Some(held) = error.downcast_ref().and_then(io::Error::get_ref) {
         return status_of(held);
     }
     of_cloth(error).or_else(|| of_mesh(error))
 }
 
-/// The status of an error of a design or of its cloth.
+/// The status of an error of a design or of its cloth, if it has one.
 fn of_cloth(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
         return status_of(&**error);
@@ -114,7 +119,8 @@ fn of_cloth(error: &(dyn Error + 'static)) -> Option<texere_status> {
     None
 }
 
-/// The status of an error of a device, or of a mesh and what becomes of it.
+/// The status of an error of a device, or of making, editing, drawing or writing a mesh, if it has
+/// one.
 fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
     if let Some(error) = error.downcast_ref() {
         return Some(match error {
@@ -169,38 +175,4 @@ fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
         };
     }
     None
-}
-
-/// Where in a design's file an error lies, where it says so.
-fn place_of(error: &(dyn Error + 'static)) -> Option<Place> {
-    let at = |file: &Path, line: usize, column: usize| {
-        let file = lendable(file.to_string_lossy());
-        Some(Place { file, line: line as u64, column: column as u64 })
-    };
-    if let Some(error) = error.downcast_ref::<Box<ReadError>>() {
-        return place_of(&**error);
-    }
-    if let Some(Refusal::Key { place: FilePlace { file, line, .. }, .. }) = error.downcast_ref() {
-        return at(file, *line, 0);
-    }
-    match error.downcast_ref()? {
-        ReadError::Word { file, line, column, .. } => at(file, *line, *column),
-        ReadError::Syntax { file, line, .. } => at(file, *line, 0),
-        ReadError::BadValue { place, .. }
-        | ReadError::OutOfRange { place, .. }
-        | ReadError::UnknownKey { place, .. }
-        | ReadError::Value { place, .. }
-        | ReadError::Without { place, .. }
-        | ReadError::Weave { place, .. }
-        | ReadError::Chart { place, .. }
-        | ReadError::Chain { place, .. }
-        | ReadError::Named { place, .. }
-        | ReadError::Corner { place, .. }
-        | ReadError::Section { place, .. }
-        | ReadError::Cloth { place, .. } => at(&place.file, place.line, 0),
-        ReadError::Io { file, .. } | ReadError::Fabric { file, .. } | ReadError::MissingKey { file, .. } => {
-            at(file, 0, 0)
-        }
-        _ => None,
-    }
 }

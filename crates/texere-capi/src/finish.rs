@@ -4,22 +4,24 @@ use texere::Design;
 use texere::rest::{Finish, Length};
 use texere::woven::{BySet, Set, Stretch};
 
-use crate::argument::{check_sized, sized};
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, get, give};
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::structure::choice;
 
-/// The structure's own choice: loops of a knit reach the length that its gauge asks for, or are
-/// free.
+/// The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
+/// has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
+/// yarns has none, yarns keep their lengths.
 pub const TEXERE_LENGTH_USUAL: u32 = 0;
-/// No yarn is drawn through.
+/// Yarns keep their lengths, interval by interval, so that no yarn is drawn along its path.
 pub const TEXERE_LENGTH_HELD: u32 = 1;
-/// Yarns get `length` times their length, 0.5 to 2.
+/// Yarns get `length` times the length that they have at the start, 0.5 to 2.
 pub const TEXERE_LENGTH_GIVEN: u32 = 2;
-/// Yarns take the length that they need; `length` is a tension that draws them in, 0 to 0.1.
+/// Yarns take the length that their path needs. `length` is a tension that shortens them, 0 to 0.1:
+/// the share of its length by which an interval is shortened in a pass.
 pub const TEXERE_LENGTH_FREE: u32 = 3;
 
 /// Cloth is not stretched.
@@ -33,15 +35,16 @@ pub const TEXERE_STRETCH_WEFT: u32 = 2;
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_finish {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// 1 if the yarns come to rest, 0 if they stay where the structure places them.
     pub settle: u32,
-    /// Of knits: a number that begins with TEXERE_LENGTH.
+    /// Of knits: a constant whose name begins with TEXERE_LENGTH.
     pub length_kind: u32,
-    /// What the kind of length says.
+    /// A number whose meaning the constant in `length_kind` says.
     pub length: f32,
-    /// Of knits: distance of two plates that press the cloth, 0.001 to 1000 mm; 0: no plates.
+    /// Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+    /// 0: no plates.
     pub press_mm: f32,
     /// Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
     pub warp_tension: f32,
@@ -49,13 +52,15 @@ pub struct texere_finish {
     pub weft_tension: f32,
     /// Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
     pub calender: f32,
-    /// A number that begins with TEXERE_STRETCH.
+    /// A constant whose name begins with TEXERE_STRETCH.
     pub stretch: u32,
-    /// The most passes of either form of a knit, 1 to 1000000.
+    /// Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
     pub passes: u32,
-    /// How many times as long stretched cloth becomes, 0.5 to 2.
+    /// The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
     pub stretch_by: f64,
 }
+
+grows_after!(texere_finish, stretch_by);
 
 impl texere_finish {
     fn of(design: &Design) -> Self {
@@ -85,7 +90,7 @@ impl texere_finish {
         }
     }
 
-    /// Gives the finish to `design`.
+    /// Gives this finish to `design`.
     fn set(&self, design: &mut Design) -> Result<(), Failure> {
         let is_woven = design.structure.woven().is_some();
         let length = self.length;
@@ -132,7 +137,8 @@ impl texere_finish {
     }
 }
 
-/// Makes sure that a member lies within its limits, where it `counts`.
+/// Makes sure that a member of the struct lies within its limits. A member that does not count,
+/// because another member makes it meaningless, may have any value.
 fn within(name: &str, value: f32, [low, high]: [f32; 2], counts: bool) -> Result<f32, Failure> {
     if !counts || (low..=high).contains(&value) {
         return Ok(value);
@@ -140,7 +146,7 @@ fn within(name: &str, value: f32, [low, high]: [f32; 2], counts: bool) -> Result
     Err(Failure::argument(format!("finish.{name} is {value}, expected {low} to {high}")))
 }
 
-/// Writes the finish of a design. The caller has set `finish->struct_size`.
+/// Writes the finish of a design. The caller sets `finish->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_finish(
     design: *const texere_design,
@@ -150,16 +156,16 @@ pub unsafe extern "C" fn texere_design_finish(
         // SAFETY: the caller vouches for `finish`.
         unsafe { check_sized("finish", finish) }?;
         let found = texere_finish::of(&*get(design)?);
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { finish.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(finish, found) };
         Ok(())
     })
 }
 
-/// Makes a design like another one with a finish of the caller's.
+/// Makes a copy of a design with the finish `finish`.
 ///
-/// Fails with TEXERE_ARGUMENT for a finish out of range, and for one that the structure does not
-/// have.
+/// Fails with TEXERE_ARGUMENT for a value out of range, and for a finish that the structure does
+/// not have, such as a stretch of a knit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_finished(
     design: *const texere_design,

@@ -1,7 +1,7 @@
-//! Handles: numbers in the shape of pointers, and what they stand for.
+//! Handles: numbers with the type of pointers, and the table of the values that they stand for.
 //!
-//! A handle is never followed. It is looked up in a table, so one that was freed, that is of
-//! another kind, or that is any number at all ends in an error.
+//! A handle is never dereferenced but looked up in the table. A handle that was freed, a handle of
+//! another kind and a number that never was a handle are therefore refused with an error.
 
 use std::any::Any;
 use std::collections::HashMap;
@@ -14,9 +14,9 @@ use crate::failure::Failure;
 
 /// A kind of handle.
 pub(crate) trait Handle {
-    /// What it stands for.
+    /// The type of the value that the handle stands for.
     type Value: Any + Send + Sync;
-    /// What an error calls it.
+    /// What error messages call a handle of this kind.
     const NAME: &str;
 }
 
@@ -27,7 +27,7 @@ static TABLE: LazyLock<RwLock<Table>> = LazyLock::new(RwLock::default);
 /// Numbers go up and are never given twice, so that a handle that was freed stays unknown.
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// Handles lie as far apart as pointers of any struct do.
+/// Handles are multiples of this number, as pointers to structs are multiples of an alignment.
 const APART: usize = 16;
 
 /// Keeps `value`, and writes its handle to `out`.
@@ -39,25 +39,25 @@ pub(crate) unsafe fn give<H: Handle>(out: *mut *mut H, value: H::Value) -> Resul
     check("out", out)?;
     let number = NEXT.fetch_add(1, Ordering::Relaxed) * APART;
     TABLE.write().unwrap_or_else(PoisonError::into_inner).insert(number, Arc::new(value));
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     unsafe { out.write(without_provenance_mut(number)) };
     Ok(())
 }
 
-/// Makes sure that a handle can be written to `out`, and writes a null one, which stays where the
-/// call fails.
+/// Makes sure that a handle can be written to `out`, and writes a null handle there. If the call
+/// fails later, the null handle stays.
 ///
 /// # Safety
 ///
 /// `out` is valid for a write.
 pub(crate) unsafe fn clear<H>(out: *mut *mut H) -> Result<(), Failure> {
     check("out", out)?;
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     unsafe { out.write(null_mut()) };
     Ok(())
 }
 
-/// What a handle stands for.
+/// The value that a handle stands for.
 pub(crate) fn get<H: Handle>(handle: *const H) -> Result<Arc<H::Value>, Failure> {
     if handle.is_null() {
         return Err(Failure::argument(format!("the {} is null", H::NAME)));
@@ -70,13 +70,14 @@ pub(crate) fn get<H: Handle>(handle: *const H) -> Result<Arc<H::Value>, Failure>
         .ok_or_else(|| Failure::argument(format!("the {} was freed already, or is no {}", H::NAME, H::NAME)))
 }
 
-/// What a handle stands for, or none for a null one.
+/// The value that a handle stands for, or `None` for a null handle.
 pub(crate) fn get_any<H: Handle>(handle: *const H) -> Result<Option<Arc<H::Value>>, Failure> {
     if handle.is_null() { Ok(None) } else { get(handle).map(Some) }
 }
 
-/// Does `work` with what a handle stands for. No other thread may be using it: there is no waiting,
-/// since two threads that change one thing in turn are a fault of the program.
+/// Does `work` with the value that a handle stands for. Fails if a call of another thread is using
+/// that value. It does not wait for that call, because a program that uses one such handle on two
+/// threads at a time is at fault.
 pub(crate) fn alone<H, T, R>(
     handle: *const H,
     work: impl FnOnce(&mut T) -> Result<R, Failure>,
@@ -101,8 +102,8 @@ pub(crate) fn free<H: Handle>(handle: *mut H) {
     if table.get(&handle.addr()).is_some_and(|value| value.is::<H::Value>()) {
         let value = table.remove(&handle.addr());
         drop(table);
-        // What it holds may be large: the table is open again while it is dropped. A fault in a
-        // driver that it calls is not the caller's.
+        // To drop a large value takes a while, so the table is unlocked first. If dropping panics,
+        // in a driver for example, the panic ends here.
         let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| drop(value)));
     }
 }

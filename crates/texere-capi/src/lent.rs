@@ -1,4 +1,4 @@
-//! Objects of Vulkan and OpenCL that are lent to a program which draws by itself.
+//! Objects of Vulkan and OpenCL that the library lends to a program that draws by itself.
 
 #[cfg(vulkan)]
 use ash::vk::Handle;
@@ -9,23 +9,25 @@ use texere::gpu::OpenClEngine;
 use texere::gpu::{WgpuEngine, wgpu, wgpu::hal::api::Vulkan};
 
 use crate::failure::Failure;
+use crate::sized::grows_after;
 
 /// Buffers are `cl_mem`.
 pub const TEXERE_NATIVE_OPENCL: u32 = 1;
 /// Buffers are `VkBuffer`.
 pub const TEXERE_NATIVE_VULKAN: u32 = 2;
 
-/// Objects that a session works with, as numbers: cast each to the type of its interface.
+/// The objects of OpenCL or Vulkan that a session works with, as numbers. A program casts each to
+/// the type that its description names.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_native {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
     pub kind: u32,
     /// The `VkInstance`; 0 with OpenCL.
     pub instance: u64,
-    /// The `VkPhysicalDevice`; 0 with OpenCL, where the queue says its device.
+    /// The `VkPhysicalDevice`; 0 with OpenCL, where the command queue knows its device.
     pub physical_device: u64,
     /// The `VkDevice` or `cl_context`.
     pub device: u64,
@@ -37,32 +39,35 @@ pub struct texere_native {
     pub reserved: u32,
 }
 
+grows_after!(texere_native, reserved);
+
 /// A part of a buffer on a device.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub struct texere_device_buffer {
-    /// The `cl_mem` or `VkBuffer`; 0 where there is none.
+    /// The `cl_mem` or `VkBuffer`; 0 if there are no values.
     pub buffer: u64,
-    /// Where the values begin, bytes.
+    /// Where in the buffer the values begin, bytes.
     pub offset: u64,
-    /// How many bytes the values have.
+    /// Size of all values, bytes.
     pub size: u64,
 }
 
 /// The mesh of a chunk on its device.
 ///
-/// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers: a command
-/// that reads them waits for it.
+/// With OpenCL, `ready` is the `cl_event` of the last command that writes the buffers. A command of
+/// the program that reads the buffers has to wait for that event.
 ///
-/// With Vulkan, the commands that write the buffers are in the queue when they are lent. On that
-/// queue a memory barrier is enough, from writes of compute shaders to what reads. On another queue
-/// call `texere_session_wait` first. No other thread may call the library with the same device
-/// while a program submits to its queue. Vertices may be used as a vertex or storage buffer or as
-/// the source of a transfer, indices as an index or storage buffer or as that source.
+/// With Vulkan, the commands that write the buffers have been submitted to the queue when the
+/// buffers are lent. A command on that queue needs a memory barrier from the writes of compute
+/// shaders to its own reads. Before it uses another queue, a program calls `texere_session_wait`.
+/// While the program submits to the queue, no other thread may call the library with the same
+/// device. The buffer of vertices may be used as a vertex buffer, a storage buffer or the source of
+/// a transfer; that of indices as an index buffer, a storage buffer or the source of a transfer.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_device_mesh {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// TEXERE_NATIVE_OPENCL or TEXERE_NATIVE_VULKAN.
     pub kind: u32,
@@ -74,7 +79,9 @@ pub struct texere_device_mesh {
     pub ready: u64,
 }
 
-/// What an engine works with. Fails where it has no buffers to lend.
+grows_after!(texere_device_mesh, ready);
+
+/// The objects of OpenCL or Vulkan that an engine works with. Fails if the engine has neither.
 pub(crate) fn native(engine: &dyn Engine) -> Result<texere_native, Failure> {
     #[cfg(feature = "opencl")]
     if let Some(engine) = OpenClEngine::of(engine) {
@@ -121,7 +128,8 @@ pub(crate) fn mesh(engine: &dyn Engine, slot: Slot, chunk: &Chunk) -> Result<tex
     })
 }
 
-/// The buffers of vertices and indices of the chunk in a slot, and the event to wait for.
+/// The buffers of vertices and of indices of the chunk in a slot, and the event to wait for; each
+/// is 0 if there is none.
 fn handles(engine: &dyn Engine, slot: Slot) -> [u64; 3] {
     #[cfg(feature = "opencl")]
     if let Some(mesh) = OpenClEngine::of(engine).and_then(|engine| engine.device_mesh(slot)) {
@@ -146,6 +154,7 @@ fn vulkan_buffer(buffer: Option<&wgpu::Buffer>) -> u64 {
 }
 
 /// No objects of any interface.
+#[cfg(any(feature = "opencl", vulkan))]
 const NONE: texere_native = texere_native {
     struct_size: size_of::<texere_native>() as u32,
     kind: 0,

@@ -5,16 +5,16 @@
 //! texere_design_read ─┴> texere_cloth_rest ───┴> texere_live_of_cloth ─> texere_live_update
 //! ```
 //!
-//! `include/texere.h` is made from this crate by cbindgen; a test holds the two equal. docs/C.md
-//! goes from the install to the first mesh.
+//! `include/texere.h` is generated from this crate by cbindgen, and a test fails if it is out of
+//! date. docs/C.md describes the installation and a first mesh.
 //!
 //! # How calls work
 //!
-//! - A function that can fail gives a [`texere_status`]. [`texere_error_message`] says in words
+//! - A function that can fail returns a [`texere_status`]. [`texere_error_message`] says in words
 //!   what went wrong, and [`texere_error_place`] where in a design's file.
-//! - Handles are numbers in the shape of pointers. The library looks each of them up, so a handle
-//!   that was freed, or that is of another kind, is refused and never followed.
-//! - A `_free` function takes a null handle, and one that was freed already.
+//! - A handle is a number with the type of a pointer. The library looks it up in a table and never
+//!   dereferences it. A handle that was freed, or that is of another kind, is therefore refused.
+//! - A `_free` function does nothing for a null handle, and for one that was freed already.
 //! - Handles may be used by several threads at once, unless their description says that one thread
 //!   at a time may use them. A handle that is freed while another thread's call uses it lives until
 //!   that call ends.
@@ -23,8 +23,9 @@
 //!
 //! # Safety
 //!
-//! Pointers that a program passes have to be valid for what the function's description says that
-//! the library reads or writes there. Null and misaligned pointers are refused.
+//! The description of each function says what the library reads or writes through a pointer. The
+//! pointers that a program passes have to be valid for that. Null and misaligned pointers are
+//! refused.
 #![allow(non_camel_case_types, reason = "the names are those of the header")]
 #![allow(clippy::missing_safety_doc, reason = "the head of the crate says it for all functions")]
 
@@ -45,6 +46,7 @@ mod handle;
 mod lendable;
 mod lent;
 mod live;
+mod live_mesh;
 mod material;
 mod measures;
 mod mesh;
@@ -56,6 +58,7 @@ mod renderer;
 mod run;
 mod session;
 mod settings;
+mod sized;
 mod status;
 mod stream;
 mod structure;
@@ -78,6 +81,7 @@ pub use error::*;
 pub use finish::*;
 pub use lent::*;
 pub use live::*;
+pub use live_mesh::*;
 pub use material::*;
 pub use measures::*;
 pub use mesh::*;
@@ -99,11 +103,13 @@ pub use woven::*;
 pub use write::*;
 pub use yarns::*;
 
-/// The number of the binary interface. A program compares it with `texere_abi` of the library
-/// that it has loaded: they are equal, or the program can't use that library.
+/// The number of the binary interface. A program compares this number of its header with what
+/// `texere_abi` of the loaded library returns. If the two differ, the program can't use that
+/// library.
 pub const TEXERE_ABI: u32 = 1;
 
-/// The number of the binary interface of this library: `TEXERE_ABI` of its header.
+/// The number of the binary interface of the loaded library: TEXERE_ABI of the header that belongs
+/// to it.
 #[unsafe(no_mangle)]
 pub extern "C" fn texere_abi() -> u32 {
     TEXERE_ABI

@@ -5,45 +5,44 @@ use std::iter;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
-use texere::backend::MeshMut;
-use texere::mesh::{Change, MeshPiece, Topology};
+use texere::mesh::{Change, Topology};
 use texere::{Design, Live, PipelineError, Structure};
 
-use crate::argument::{check, check_sized};
+use crate::argument::check;
 use crate::cloth::{Cloth, texere_cloth};
 use crate::device::texere_device;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, alone, clear, free, get, get_any, give};
-use crate::mesh::{memory, texere_vertex};
 use crate::plan::{shape, texere_counts, texere_draw};
 use crate::run::{Run, reporter, texere_run};
 use crate::settings::{chosen, texere_settings};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// A cloth that is being edited, and its whole mesh on a device. One thread at a time may use it: a
-/// call fails with TEXERE_ARGUMENT while a call of another thread is using it.
+/// A cloth that is being edited, with its whole mesh on a device. One thread at a time may use it:
+/// a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
 ///
-/// An edit counts at once for `texere_live_yarns` and `texere_live_pick`. `texere_live_update`
-/// brings it to the mesh. To undo an edit, set the old value again.
+/// `texere_live_yarns` and `texere_live_pick` see an edit at once. `texere_live_update` brings
+/// edits to the mesh. To undo an edit, set the old value again.
 #[derive(Debug)]
 pub struct texere_live;
 
-/// A live cloth, with what the library lends of it.
+/// A live cloth, with the values that the library lends to the caller.
 #[derive(Debug)]
 pub(crate) struct Editing {
     pub(crate) live: Live,
-    /// By which places are named.
+    /// The design by which places are named, if there is one.
     pub(crate) known: Known,
-    /// That of the material that was asked for last.
+    /// The name of the material that `texere_live_material` wrote last.
     pub(crate) name: CString,
-    counts: texere_counts,
+    pub(crate) counts: texere_counts,
     draws: Vec<texere_draw>,
     changes: Vec<texere_change>,
 }
 
-/// What the yarns of a live cloth come from.
+/// The origin of a live cloth's yarns.
 #[derive(Debug)]
 pub(crate) enum Known {
     Cloth(Arc<Cloth>),
@@ -56,36 +55,39 @@ impl Handle for texere_live {
     const NAME: &str = "live cloth";
 }
 
-/// A stretch of vertices and indices that an update has made again. Both count from the start of
+/// A range of vertices and a range of indices that an update has made again. Both are numbered in
 /// the whole mesh.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct texere_change {
-    /// The first vertex.
+    /// The number of the first vertex.
     pub first_vertex: u64,
     /// How many vertices there are.
     pub vertex_count: u64,
-    /// The first index.
+    /// The number of the first index.
     pub first_index: u64,
-    /// How many indices there are: none unless the topology is TEXERE_TOPOLOGY_INDEXED.
+    /// How many indices there are: 0 unless the topology is TEXERE_TOPOLOGY_INDEXED.
     pub index_count: u64,
 }
 
-/// What an update has made again.
+/// The parts of the mesh that an update has made again.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_update {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 where the mesh was begun again, as after an edit that makes a yarn outgrow its room: sizes
-    /// and places of everything may be others. Else 0.
+    /// 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
+    /// yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+    /// numbers. Else 0.
     pub anew: u32,
-    /// The stretches that were made again, valid until the next update of this live cloth, or until
-    /// it is freed.
+    /// The ranges that were made again. They are valid until the next update of this live cloth, or
+    /// until it is freed.
     pub changes: *const texere_change,
-    /// How many there are.
+    /// How many changes there are.
     pub change_count: u64,
 }
+
+grows_after!(texere_update, change_count);
 
 impl Known {
     pub(crate) fn design(&self) -> Option<&Design> {
@@ -103,8 +105,12 @@ impl Editing {
         Self { live, known, name: CString::default(), counts, draws, changes: Vec::new() }
     }
 
-    fn update(&mut self) -> Result<texere_update, Failure> {
-        let update = self.live.update()?;
+    fn update(&mut self, run: Option<Arc<Run>>) -> Result<texere_update, Failure> {
+        let mut report = reporter(run);
+        let ControlFlow::Continue(update) = self.live.update_watched(&mut || report(0.0))? else {
+            return Err(PipelineError::Cancelled.into());
+        };
+        let _ = report(1.0);
         (self.counts, self.draws, _) = shape(self.live.mesh().plan(), self.live.mesh().chunks());
         self.changes = update.changes.iter().flat_map(|change| self.stretches(change)).collect();
         Ok(texere_update {
@@ -115,7 +121,8 @@ impl Editing {
         })
     }
 
-    /// A change as stretches of the whole mesh: the tubes, and the caps behind them.
+    /// A change as ranges of the whole mesh: one for the tubes, and one for the caps behind them if
+    /// there are any.
     fn stretches(&self, change: &Change) -> impl Iterator<Item = texere_change> + use<> {
         let mesh = self.live.mesh();
         let (chunk, settings) = (&mesh.chunks()[change.chunk], *mesh.plan().settings());
@@ -134,95 +141,13 @@ impl Editing {
             .map(|cap| stretch(cap.first_vertex, count * settings.sides, cap.first_index, count * each));
         iter::once(tubes).chain(caps)
     }
-
-    /// Reads a stretch of the mesh into the caller's memory.
-    ///
-    /// # Safety
-    ///
-    /// As for [`memory`].
-    unsafe fn read_into(
-        &mut self,
-        wanted: &texere_change,
-        vertices: (*mut texere_vertex, u64),
-        indices: (*mut u32, u64),
-        run: Option<Arc<Run>>,
-    ) -> Result<(), Failure> {
-        // SAFETY: the caller vouches for both.
-        let into = unsafe { memory(vertices, indices, [wanted.vertex_count, wanted.index_count]) }?;
-        self.read(wanted, into, reporter(run))
-    }
-
-    /// Reads a stretch of the mesh. The slices have the lengths that it says.
-    fn read(
-        &mut self,
-        wanted: &texere_change,
-        MeshMut { vertices, indices }: MeshMut<'_>,
-        mut progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(), Failure> {
-        let plan = self.live.mesh().plan().clone();
-        if plan.settings().topology == Topology::Shared && !indices.is_empty() {
-            overlap(0, &plan.shared_indices(), wanted.first_index, indices);
-        }
-        let (mut had, total) = (0, (vertices.len() + indices.len()).max(1));
-        for number in 0..self.live.mesh().chunks().len() {
-            let chunk = &self.live.mesh().chunks()[number];
-            let (first_vertex, first_index) = (chunk.first_vertex(), chunk.first_index());
-            let meets = |from: u64, count: u32, first: u64, wanted: u64| {
-                first < from + u64::from(count) && from < first + wanted
-            };
-            let [any_vertices, any_indices] = [
-                meets(first_vertex, chunk.vertices(), wanted.first_vertex, wanted.vertex_count),
-                meets(first_index, chunk.indices(), wanted.first_index, wanted.index_count),
-            ];
-            if !any_vertices && !any_indices {
-                continue;
-            }
-            let mut asked = ControlFlow::Continue(());
-            let _ = self.live.mesh_mut().read_mesh(number, &mut |piece| {
-                // Vertices come before indices, and both in order.
-                let enough = match piece {
-                    MeshPiece::Vertices { first, vertices: lent } => {
-                        let first = first_vertex + u64::from(first);
-                        had += overlap(first, lent, wanted.first_vertex, vertices);
-                        let end = wanted.first_vertex + wanted.vertex_count;
-                        !any_indices && first + lent.len() as u64 >= end
-                    }
-                    MeshPiece::Indices { first, indices: lent } => {
-                        let first = first_index + u64::from(first);
-                        had += overlap(first, lent, wanted.first_index, indices);
-                        !any_indices || first + lent.len() as u64 >= wanted.first_index + wanted.index_count
-                    }
-                    _ => false,
-                };
-                asked = progress(had as f64 / total as f64);
-                if enough { ControlFlow::Break(()) } else { asked }
-            })?;
-            if asked.is_break() {
-                return Err(PipelineError::Cancelled.into());
-            }
-        }
-        Ok(())
-    }
 }
 
-/// Copies what `from`, whose first value has the number `first`, has of the values that `into` is
-/// to hold from number `wanted` on. Gives how many they are.
-fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usize {
-    let start = first.max(wanted);
-    let end = (first + from.len() as u64).min(wanted + into.len() as u64);
-    if start >= end {
-        return 0;
-    }
-    let count = (end - start) as usize;
-    into[(start - wanted) as usize..][..count].copy_from_slice(&from[(start - first) as usize..][..count]);
-    count
-}
-
-/// Makes a live cloth of a cloth, with its mesh on a device. Lifts of a woven cloth can be set.
-/// `settings` may be null: `texere_settings_default` says what holds then.
+/// Makes a live cloth of a cloth, with its mesh on a device. If the cloth is woven, its lifts can
+/// be set. `settings` may be null, and then those of `texere_settings_default` apply.
 ///
-/// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY where the mesh has no
-/// room on the device, and with TEXERE_UNSUPPORTED where the device can't keep a mesh.
+/// Fails with TEXERE_ARGUMENT for settings out of range, with TEXERE_MEMORY if the mesh has no room
+/// on the device, and with TEXERE_UNSUPPORTED if the device can't keep a mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_of_cloth(
     cloth: *const texere_cloth,
@@ -249,8 +174,8 @@ pub unsafe extern "C" fn texere_live_of_cloth(
     })
 }
 
-/// Makes a live cloth of yarns, with its mesh on a device. It has no weave, so lifts can't be set.
-/// `settings` may be null: `texere_settings_default` says what holds then.
+/// Makes a live cloth of yarns, with its mesh on a device. Yarns have no weave, so lifts can't be
+/// set. `settings` may be null, and then those of `texere_settings_default` apply.
 ///
 /// Fails as `texere_live_of_cloth` does.
 #[unsafe(no_mangle)]
@@ -272,29 +197,32 @@ pub unsafe extern "C" fn texere_live_of_yarns(
     })
 }
 
-/// Makes the parts of the mesh again that edits have changed, and writes which they are. The first
-/// update makes the whole mesh. The caller has set `update->struct_size`.
+/// Makes again the parts of the mesh that edits have changed, and writes which parts they are. The
+/// first update makes the whole mesh. `run` may be null. The caller sets `update->struct_size`
+/// before the call.
 ///
-/// Fails with TEXERE_DEVICE or TEXERE_MEMORY where the device fails; the next update makes the
-/// parts again.
+/// Fails with TEXERE_DEVICE or TEXERE_MEMORY if the device fails, and with TEXERE_CANCELLED if
+/// `run` was cancelled. The next update then makes the same parts.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_update(
     live: *const texere_live,
+    run: *const texere_run,
     update: *mut texere_update,
 ) -> texere_status {
     guard(|| {
         // SAFETY: the caller vouches for `update`.
         unsafe { check_sized("update", update) }?;
-        let made = alone(live, Editing::update)?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { update.write(made) };
+        let run = get_any(run)?;
+        let made = alone(live, |editing| editing.update(run))?;
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(update, made) };
         Ok(())
     })
 }
 
-/// Writes the sizes of a live cloth's mesh as of its last update. Vertices and indices count the
-/// room between yarns, too, in which yarns can become longer. The caller has set
-/// `counts->struct_size`.
+/// Writes the sizes of a live cloth's mesh as of its last update. The numbers of vertices and
+/// indices include the room between yarns, into which yarns can grow. The caller sets
+/// `counts->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_counts(
     live: *const texere_live,
@@ -304,15 +232,15 @@ pub unsafe extern "C" fn texere_live_counts(
         // SAFETY: the caller vouches for `counts`.
         unsafe { check_sized("counts", counts) }?;
         let found = alone(live, |editing| Ok(editing.counts))?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { counts.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(counts, found) };
         Ok(())
     })
 }
 
-/// Lends the draws of a live cloth's mesh as of its last update: `texere_live_counts` says how many
-/// there are. What lies between them is room, and is not drawn. They are valid until the next
-/// update, or until the live cloth is freed.
+/// Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
+/// there are. Indices between two draws are room, and are not drawn. The draws are valid until the
+/// next update, or until the live cloth is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_draws(
     live: *const texere_live,
@@ -321,73 +249,9 @@ pub unsafe extern "C" fn texere_live_draws(
     guard(|| {
         check("draws", draws)?;
         let lent = alone(live, |editing| Ok(editing.draws.as_ptr()))?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { draws.write(lent) };
         Ok(())
-    })
-}
-
-/// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. What the room
-/// between yarns holds is not said.
-///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-/// `texere_live_counts` says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`; with TEXERE_CANCELLED where `run` was cancelled.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn texere_live_mesh(
-    live: *const texere_live,
-    run: *const texere_run,
-    vertices: *mut texere_vertex,
-    vertex_count: u64,
-    indices: *mut u32,
-    index_count: u64,
-) -> texere_status {
-    guard(|| {
-        let run = get_any(run)?;
-        alone(live, |editing| {
-            let all = texere_change {
-                first_vertex: 0,
-                vertex_count: editing.counts.vertices,
-                first_index: 0,
-                index_count: editing.counts.indices,
-            };
-            // SAFETY: the caller vouches for vertices and indices.
-            unsafe { editing.read_into(&all, (vertices, vertex_count), (indices, index_count), run) }
-        })
-    })
-}
-
-/// Reads a stretch of the mesh of a live cloth into the caller's memory, such as a change of the
-/// last update. Indices count from the base vertex of their draw, as in the whole mesh.
-///
-/// Fails with TEXERE_ARGUMENT where the stretch is no part of the mesh, where `vertex_count` or
-/// `index_count` is not what it says, and where an edit has not been brought to the mesh by
-/// `texere_live_update`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn texere_live_read(
-    live: *const texere_live,
-    change: *const texere_change,
-    vertices: *mut texere_vertex,
-    vertex_count: u64,
-    indices: *mut u32,
-    index_count: u64,
-) -> texere_status {
-    guard(|| {
-        check("change", change)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        let wanted = unsafe { change.read() };
-        alone(live, |editing| {
-            let within = |name: &str, first: u64, count: u64, all: u64| {
-                let end = first.checked_add(count).filter(|end| *end <= all);
-                end.map(|_| ()).ok_or_else(|| {
-                    Failure::argument(format!("{count} {name} from {first} on, but the mesh has {all}"))
-                })
-            };
-            within("vertices", wanted.first_vertex, wanted.vertex_count, editing.counts.vertices)?;
-            within("indices", wanted.first_index, wanted.index_count, editing.counts.indices)?;
-            // SAFETY: the caller vouches for vertices and indices.
-            unsafe { editing.read_into(&wanted, (vertices, vertex_count), (indices, index_count), None) }
-        })
     })
 }
 
@@ -407,7 +271,7 @@ pub unsafe extern "C" fn texere_live_yarns(
     })
 }
 
-/// Frees a live cloth, or nothing where it is null.
+/// Frees a live cloth. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_free(live: *mut texere_live) {
     free(live);

@@ -1,4 +1,4 @@
-//! What yarns are made of, and what their sections are.
+//! Materials and sections of yarns.
 
 use std::ffi::c_char;
 
@@ -9,17 +9,18 @@ use crate::error::guard;
 use crate::failure::Failure;
 use crate::status::texere_status;
 
-/// What yarns are made of.
+/// A material of yarns.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_material {
     /// Its name, UTF-8.
     pub name: *const c_char,
-    /// Bytes of the name.
+    /// Length of the name, bytes.
     pub name_length: usize,
-    /// Linear density, tex; 0 where it is not known.
+    /// Linear density, tex; 0 if it is not known.
     pub tex: f32,
-    /// Fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show them.
+    /// Length of the fibres that stand off the yarn, cm per cm of yarn, 0 to 30. Only pictures show
+    /// them.
     pub hairiness: f32,
     /// Red, green and blue, sRGB.
     pub srgb: [u8; 3],
@@ -29,50 +30,51 @@ pub struct texere_material {
 
 /// A circle.
 pub const TEXERE_SECTION_CIRCLE: u32 = 0;
-/// An ellipse: `aspect`.
+/// An ellipse whose width over height is `aspect`.
 pub const TEXERE_SECTION_ELLIPSE: u32 = 1;
-/// Two arcs that meet in two edges: `aspect`, and as `form` the height of the edges above the
-/// middle, in half heights, -0.9 to 0.9.
+/// Two arcs that meet in two edges. The section has `aspect`; `form` is the height of the edges
+/// above the middle, in half heights, -0.9 to 0.9.
 pub const TEXERE_SECTION_LENTICULAR: u32 = 2;
-/// An ellipse whose height is |sin|^`form`: `aspect`, and a `form` from 0.1 to 4; 1 is an ellipse.
+/// An ellipse whose height at angle a is in proportion to |sin a|^`form` instead of |sin a|. The
+/// section has `aspect`; `form` is 0.1 to 4, and 1 is an ellipse.
 pub const TEXERE_SECTION_POWER_ELLIPSE: u32 = 3;
-/// Plies that are twisted together: `count` of them, 2 to 12.
+/// The outline of `count` round plies twisted together, 2 to 12.
 pub const TEXERE_SECTION_LOBED: u32 = 4;
-/// The outline in `corners`, 3 to 256 of them.
+/// The outline through `corners`: `count` corners, 3 to 256.
 pub const TEXERE_SECTION_POLYGON: u32 = 5;
 
-/// The cross-section of yarns. All but a polygon enclose the area of the yarn's circle.
+/// The cross-section of yarns. Every shape except a polygon has the area of the round yarn.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_section {
-    /// A number that begins with TEXERE_SECTION.
+    /// A constant whose name begins with TEXERE_SECTION.
     pub shape: u32,
-    /// How many plies or corners.
+    /// How many plies of TEXERE_SECTION_LOBED, or corners of TEXERE_SECTION_POLYGON.
     pub count: u32,
     /// Width over height, 0.05 to 20.
     pub aspect: f32,
-    /// What the shape says.
+    /// A number whose meaning the constant of the shape says.
     pub form: f32,
-    /// Corners of a polygon, counter-clockwise: x and y of each, in radii of the yarn, so that it
-    /// has two numbers a corner.
+    /// The corners of a polygon, counter-clockwise: for each corner its x and its y, in radii of
+    /// the yarn.
     pub corners: *const f32,
 }
 
-/// Materials and sections that yarns refer to by their number, from 0.
+/// Materials and sections. Yarns refer to them by their number, counted from 0.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_looks {
-    /// Materials. Null and 0: undyed yarn.
+    /// The materials. Null with a `material_count` of 0: one material, undyed yarn.
     pub materials: *const texere_material,
     /// How many materials.
     pub material_count: u64,
-    /// Sections. Null and 0: a circle.
+    /// The sections. Null with a `section_count` of 0: one section, a circle.
     pub sections: *const texere_section,
     /// How many sections.
     pub section_count: u64,
 }
 
-/// The values of a struct's array. A null pointer is none, where `count` is 0.
+/// The `count` values of an array that a struct points to. The pointer may be null if `count` is 0.
 ///
 /// # Safety
 ///
@@ -85,7 +87,7 @@ pub(crate) unsafe fn array<'a, T>(name: &str, pointer: *const T, count: u64) -> 
 }
 
 impl texere_looks {
-    /// The materials and the sections. `name` is the struct that they belong to.
+    /// The materials and the sections. `name` is the struct's name in error messages.
     ///
     /// # Safety
     ///
@@ -120,7 +122,7 @@ impl texere_looks {
 }
 
 impl texere_material {
-    /// The material. `name` is the argument's.
+    /// The material. `name` is the argument's name in error messages.
     ///
     /// # Safety
     ///
@@ -165,8 +167,8 @@ impl texere_section {
     }
 }
 
-/// Writes the diameter, mm, of a yarn of a linear density, tex, and of a density, g/cm³ with the
-/// air in the yarn: 0.909 is usual for cotton.
+/// Writes the diameter, mm, of a yarn with the linear density `tex`, tex, and the density
+/// `density`, g/cm³. The density is that of the yarn with the air in it; 0.909 is usual for cotton.
 ///
 /// Fails with TEXERE_ARGUMENT for numbers that are not above 0 and finite.
 #[unsafe(no_mangle)]
@@ -178,7 +180,7 @@ pub unsafe extern "C" fn texere_diameter(tex: f64, density: f64, diameter_mm: *m
                 return Err(Failure::argument(format!("{name} is {value}, expected a number above 0")));
             }
         }
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { diameter_mm.write(texere::yarn::diameter_mm(tex, density)) };
         Ok(())
     })

@@ -2,19 +2,20 @@
 
 use texere::check::{Cover, KnitMeasures, Measures};
 
-use crate::argument::{check_sized, slice_mut};
+use crate::argument::slice_mut;
 use crate::cloth::{Cloth, texere_cloth};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::exactly;
 
-/// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN.
+/// Measures of a cloth. A measure that the cloth does not have, or that can't be known, is NaN.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_measures {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Wales of a knit; 0 of woven cloth.
     pub wales: u32,
@@ -24,11 +25,11 @@ pub struct texere_measures {
     pub materials: u32,
     /// Loops of a knit; 0 of woven cloth.
     pub loops: u64,
-    /// Width of the cloth, mm.
+    /// Width of the cloth, along the weft or the courses, mm.
     pub width: f64,
-    /// Height of the cloth, mm.
+    /// Height of the cloth, along the warp or the wales, mm.
     pub height: f64,
-    /// Thickness without load, mm.
+    /// Thickness of the cloth without load, mm.
     pub thickness: f64,
     /// Length of all yarn, mm.
     pub length: f64,
@@ -36,32 +37,36 @@ pub struct texere_measures {
     pub areal_weight: f64,
     /// Crimp of the warp: length of yarn over length of cloth, less 1. NaN of a knit.
     pub warp_crimp: f64,
-    /// Crimp of the weft.
+    /// Crimp of the weft, in the same way.
     pub weft_crimp: f64,
     /// The share of the cloth's width that ends cover, from 0 to 1. NaN of a knit.
     pub warp_cover: f64,
-    /// The share of the cloth's length that picks cover.
+    /// The share of the cloth's height that picks cover, from 0 to 1. NaN of a knit.
     pub weft_cover: f64,
-    /// The share of the cloth that is covered.
+    /// The share of the cloth's area that ends and picks cover together, from 0 to 1. NaN of a
+    /// knit.
     pub cover: f64,
-    /// Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
-    /// of a knit, and unless every material that is used has a tex.
+    /// Peirce's cover factor of the warp: ends per inch over the square root of the cotton count.
+    /// NaN of a knit, and unless every material that is used has a tex.
     pub warp_cover_factor: f64,
-    /// Peirce's cover factor of the weft.
+    /// Peirce's cover factor of the weft, in the same way.
     pub weft_cover_factor: f64,
-    /// Peirce's cover factor of the cloth.
+    /// Peirce's cover factor of the cloth, K1 + K2 - K1 K2 / 28, where K1 and K2 are the factors of
+    /// warp and weft.
     pub cover_factor: f64,
-    /// Length of yarn in a loop, mm. NaN of woven cloth.
+    /// Mean length of yarn in a loop, mm. NaN of woven cloth.
     pub loop_length: f64,
-    /// Loops to the square centimetre. NaN of woven cloth.
+    /// Loops per square centimetre. NaN of woven cloth.
     pub loops_per_cm2: f64,
-    /// The root of tex over the loop length in cm. NaN of woven cloth, and unless all yarns that
-    /// are used have one and the same tex.
+    /// Tightness factor: the square root of the tex over the loop length in cm. NaN of woven cloth,
+    /// and unless all yarns that are used have the same tex.
     pub tightness: f64,
 }
 
+grows_after!(texere_measures, tightness);
+
 impl Cloth {
-    /// The measures, taken once.
+    /// The measures. They are taken at the first call and kept.
     fn measures(&self) -> Result<&Measures, Failure> {
         if let Some(measures) = self.measures.get() {
             return Ok(measures);
@@ -72,9 +77,9 @@ impl Cloth {
     }
 }
 
-/// Writes the measures of a cloth. The caller has set `measures->struct_size`.
+/// Writes the measures of a cloth. The caller sets `measures->struct_size` before the call.
 ///
-/// Fails with TEXERE_DESIGN where they can't be taken.
+/// Fails with TEXERE_DESIGN if they can't be taken.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_measures(
     cloth: *const texere_cloth,
@@ -85,8 +90,8 @@ pub unsafe extern "C" fn texere_cloth_measures(
         unsafe { check_sized("measures", measures) }?;
         let cloth = get(cloth)?;
         let found = of(cloth.measures()?, cloth.cloth.design().structure.size_mm());
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { measures.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(measures, found) };
         Ok(())
     })
 }
@@ -120,10 +125,10 @@ fn of(measures: &Measures, [width, height]: [f64; 2]) -> texere_measures {
     }
 }
 
-/// Writes the length of yarn of each material of a cloth, mm: as many as `materials` of
-/// `texere_cloth_measures` says.
+/// Writes the length of yarn of each material of a cloth, mm. `materials` of
+/// `texere_cloth_measures` says how many numbers that is.
 ///
-/// Fails with TEXERE_ARGUMENT where `count` is another number.
+/// Fails with TEXERE_ARGUMENT if `count` is another number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_lengths(
     cloth: *const texere_cloth,

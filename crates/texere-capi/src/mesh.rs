@@ -1,4 +1,4 @@
-//! The mesh of a plan, in the caller's memory.
+//! Making the mesh of a plan in the caller's memory.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -7,12 +7,13 @@ use texere::Vertex;
 use texere::backend::MeshMut;
 use texere::mesh::{MeshPiece, Topology};
 
-use crate::argument::{sized, slice_mut};
+use crate::argument::slice_mut;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{get, get_any};
 use crate::plan::{Planned, texere_plan};
 use crate::run::{Run, texere_run};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::view::{Strided, texere_view};
 use crate::yarns::exactly;
@@ -23,30 +24,33 @@ use crate::yarns::exactly;
 pub struct texere_vertex {
     /// Position, mm.
     pub position: [f32; 3],
-    /// Unit normal, out of the yarn.
+    /// Unit normal. It points out of the yarn.
     pub normal: [f32; 3],
 }
 
 const _: () = assert!(size_of::<texere_vertex>() == size_of::<Vertex>());
 
-/// Where a mesh goes: arrays of their own, or members of the caller's structs. No two values
-/// overlap.
+/// Where in the caller's memory a mesh is written: arrays of its own, or members of the caller's
+/// structs. No two values may overlap.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_mesh_arrays {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Zero.
     pub reserved: u32,
     /// Positions, mm: three `float` for each vertex.
     pub positions: texere_view,
-    /// Unit normals, out of the yarn: three `float` for each vertex. Null `data`: left out.
+    /// Unit normals, which point out of the yarn: three `float` for each vertex. With null `data`
+    /// they are left out.
     pub normals: texere_view,
-    /// Indices, a `uint32_t` each. Null `data`: left out.
+    /// Indices, a `uint32_t` each. With null `data` they are left out.
     pub indices: texere_view,
 }
 
-/// The places of a mesh that have been checked.
+grows_after!(texere_mesh_arrays, indices);
+
+/// The views of `texere_mesh_arrays` after their checks.
 struct Places<'a> {
     positions: Strided<'a, [f32; 3]>,
     normals: Option<Strided<'a, [f32; 3]>>,
@@ -54,7 +58,7 @@ struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// Writes vertices and indices, each from a number of its own on.
+    /// Writes positions and normals of vertices, from vertex `first` on.
     fn write_vertices(&mut self, first: usize, vertices: &[Vertex]) {
         self.positions.write(first, vertices.iter().map(|vertex| vertex.position));
         if let Some(normals) = &mut self.normals {
@@ -70,12 +74,12 @@ impl Places<'_> {
 }
 
 impl Planned {
-    /// Makes the mesh. `out` has the lengths that the counts say.
+    /// Makes the mesh. The slices of `out` have the lengths that `self.counts` says.
     fn mesh(&self, run: Option<Arc<Run>>, out: MeshMut<'_>) -> Result<(), Failure> {
         Ok(self.start(run)?.mesh_into(&self.chunks, out)?)
     }
 
-    /// Makes the mesh piece by piece, and lays each where it belongs.
+    /// Makes the mesh piece by piece, and copies each piece to its places.
     fn scatter(&self, run: Option<Arc<Run>>, mut places: Places<'_>) -> Result<(), Failure> {
         if self.plan.settings().topology == Topology::Shared {
             places.write_indices(0, &self.plan.shared_indices());
@@ -96,7 +100,8 @@ impl Planned {
     }
 }
 
-/// Memory of the caller's for as many vertices and indices as are needed.
+/// The caller's memory for vertices and indices. Fails unless it has room for exactly as many as
+/// are needed.
 ///
 /// # Safety
 ///
@@ -110,7 +115,7 @@ pub(crate) unsafe fn memory<'a>(
     let [vertex_length, index_length] = [vertices_needed as usize, indices_needed as usize];
     exactly("vertex_count", vertex_count, vertex_length)?;
     exactly("index_count", index_count, index_length)?;
-    // SAFETY: the caller vouches for both; their lengths are those that were asked for. A
+    // SAFETY: the caller vouches for both pointers, and `exactly` has compared the counts. A
     // `texere_vertex` and a `Vertex` are six `f32` each.
     unsafe {
         Ok(MeshMut {
@@ -123,9 +128,9 @@ pub(crate) unsafe fn memory<'a>(
 /// Makes the mesh of a plan in the caller's memory, as an array of `texere_vertex` and one of
 /// indices. `run` may be null.
 ///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what
-/// `texere_plan_counts` says, and with TEXERE_CANCELLED where `run` was cancelled. What the memory
-/// holds then is not said.
+/// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_counts`
+/// says, and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the
+/// memory are undefined.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_mesh(
     plan: *const texere_plan,
@@ -149,16 +154,17 @@ pub unsafe extern "C" fn texere_plan_mesh(
     })
 }
 
-/// Makes the mesh of a plan in arrays of the caller's choice: positions and normals apart, as
-/// members of the caller's structs, or one behind the other as in `texere_vertex`. `run` may be
-/// null. `texere_plan_counts` says how many vertices and indices there are; memory between values
-/// stays as it is.
+/// Makes the mesh of a plan in arrays that the caller chooses. Positions and normals go to arrays
+/// of their own, to members of the caller's structs, or one behind the other as in `texere_vertex`.
+/// `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
+/// between values stays as it is.
 ///
-/// Positions and normals that are one behind the other, 24 bytes from vertex to vertex, with
-/// indices one behind the other, are the fastest: the device writes there without a copy.
+/// It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
+/// with indices that lie side by side: the mesh is then not copied value by value.
 ///
-/// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, and with
-/// TEXERE_CANCELLED where `run` was cancelled. What the memory holds then is not said.
+/// Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
+/// and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are
+/// undefined.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_mesh_arrays(
     plan: *const texere_plan,
@@ -185,8 +191,8 @@ pub unsafe extern "C" fn texere_plan_mesh_arrays(
             && strides == [vertex; 2]
             && let Some(indices) = places.indices.as_mut().and_then(Strided::dense)
         {
-            // SAFETY: positions and normals have been checked, and together they are as many
-            // vertices from the first position on.
+            // SAFETY: both views have been checked. Their values lie as those of an array of as
+            // many vertices, which begins at the first position.
             let vertices =
                 unsafe { slice_mut("arrays.positions", given.positions.data.cast::<Vertex>(), vertices) }?;
             return plan.mesh(run, MeshMut { vertices, indices });

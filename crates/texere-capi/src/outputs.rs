@@ -1,4 +1,4 @@
-//! What else a plan makes in the caller's memory: packed vertices, attributes, rings.
+//! Making packed vertices, attributes and rings of a plan in the caller's memory.
 
 use std::sync::Arc;
 
@@ -14,14 +14,17 @@ use crate::run::texere_run;
 use crate::status::texere_status;
 use crate::view::{Strided, texere_view};
 
-/// A vertex in half the bytes. docs/CONVENTIONS.md says how it is unpacked.
+/// A vertex in 12 bytes, half the size of `texere_vertex`. docs/CONVENTIONS.md says how it is
+/// unpacked.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_packed_vertex {
-    /// The position in whole quanta, the lowest 21 bits of each coordinate: x in bits 0 to 20 of
-    /// these 64, the first word lowest, y in bits 21 to 41, z in bits 42 to 62.
+    /// The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
+    /// bits of each coordinate are kept. The two words are one number of 64 bits, the first word
+    /// its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
     pub position: [u32; 2],
-    /// The normal on an octahedron, in steps of 1/32767.
+    /// The unit normal, mapped to the octahedron and from there to a square: two coordinates from
+    /// -1 to 1, in steps of 1/32767.
     pub normal: [i16; 2],
 }
 
@@ -29,13 +32,14 @@ pub struct texere_packed_vertex {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_attribute {
-    /// The yarn, from 0.
+    /// The yarn, counted from 0.
     pub yarn: u32,
-    /// The angle round the section from its first corner, radians. It turns with the twist.
+    /// The angle round the section from its first corner, radians. The first corner turns with the
+    /// yarn's twist.
     pub angle: f32,
     /// The length of the yarn from its start to the vertex's ring, mm.
     pub along: f32,
-    /// The unit tangent of the yarn there.
+    /// The unit tangent of the yarn at that ring.
     pub tangent: [f32; 3],
 }
 
@@ -49,7 +53,8 @@ pub struct texere_ring {
     pub half_width: f32,
     /// Unit tangent.
     pub tangent: [f32; 3],
-    /// Turn of the section about the tangent against the upright frame, in 1/2^32 of a full turn.
+    /// Turn of the section about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in 1/2^32 of
+    /// a full turn.
     pub roll: u32,
     /// Half the height of the yarn, mm.
     pub half_height: f32,
@@ -57,7 +62,8 @@ pub struct texere_ring {
     pub width_growth: f32,
     /// Growth of the half height along the yarn, mm per mm.
     pub height_growth: f32,
-    /// Turn of the outline of a flattened yarn about the tangent, in 1/2^32 of a full turn.
+    /// Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
+    /// 1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
     pub lean: u32,
 }
 
@@ -67,11 +73,11 @@ const _: () = assert!(
         && size_of::<texere_ring>() == size_of::<Ring>()
 );
 
-/// A plan, and as many places as one of its counts says.
+/// A plan, and the caller's view `out` with room for as many values as `count` says of the plan.
 ///
 /// # Safety
 ///
-/// `out` is valid for a read, and what it says for writes.
+/// `out` is valid for a read, and the memory that it describes for writes.
 unsafe fn places<T: Copy>(
     plan: *const texere_plan,
     name: &str,
@@ -80,22 +86,22 @@ unsafe fn places<T: Copy>(
 ) -> Result<(Arc<Planned>, Strided<'static, T>), Failure> {
     check(name, out)?;
     let plan = get(plan)?;
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     let places = unsafe { out.read().holds(name, count(&plan) as usize) }?;
     Ok((plan, places))
 }
 
-/// A sink that writes pieces to their places.
+/// A closure that writes each piece of values to its places.
 fn writer<T: Copy>(mut places: Strided<'_, T>) -> impl FnMut(u64, &[T]) {
     move |first, piece| places.write(first as usize, piece.iter().copied())
 }
 
 /// Makes the packed vertices of a plan in the caller's memory: a `texere_packed_vertex` for each
-/// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+/// vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
 ///
 /// Fails with TEXERE_ARGUMENT for a view that is too small, misaligned or null, with
-/// TEXERE_CANCELLED where `run` was cancelled, and with TEXERE_UNSUPPORTED where the device packs
-/// none.
+/// TEXERE_CANCELLED if `run` was cancelled, and with TEXERE_UNSUPPORTED if the device can't make
+/// them.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_packed(
     plan: *const texere_plan,
@@ -112,7 +118,7 @@ pub unsafe extern "C" fn texere_plan_packed(
 }
 
 /// Makes the attributes of a plan's vertices in the caller's memory: a `texere_attribute` for each
-/// vertex that `texere_plan_counts` counts, in the order of the mesh's. `run` may be null.
+/// vertex that `texere_plan_counts` counts, in the order of the mesh's vertices. `run` may be null.
 ///
 /// Fails as `texere_plan_packed` does.
 #[unsafe(no_mangle)]

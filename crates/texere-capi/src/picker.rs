@@ -1,4 +1,4 @@
-//! Picking: what a ray hits first, and what a weaver calls the place.
+//! Picking: what a ray hits first, and the weaver's or knitter's name of that place.
 
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use texere::backend::Plan;
 use texere::mesh::{End, Ray};
 use texere::yarn::YarnPlace;
-use texere::{Hit, Picker};
+use texere::{Hit, Picker, Settings, Yarns};
 
 use crate::argument::{check, write_text};
 use crate::cloth::texere_cloth;
@@ -18,7 +18,7 @@ use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// Says what a ray hits first of the mesh of yarns, without the mesh.
+/// Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
 #[derive(Debug)]
 pub struct texere_picker;
 
@@ -50,19 +50,21 @@ pub const TEXERE_CAP_FINISH: u32 = 2;
 pub struct texere_hit {
     /// 1 if the ray hits anything; else 0, and everything else is 0 as well.
     pub found: u32,
-    /// The yarn, from 0.
+    /// The yarn, counted from 0.
     pub yarn: u32,
-    /// The ring before the triangle, from the start of the yarn.
+    /// The ring before the triangle that is hit, counted from 0 at the start of the yarn.
     pub ring: u32,
-    /// The corner of the section before the triangle, from 0; 0 on a cap.
+    /// The corner of the section before the triangle, counted from 0; 0 on a cap.
     pub side: u32,
-    /// A number that begins with TEXERE_CAP.
+    /// A constant whose name begins with TEXERE_CAP.
     pub cap: u32,
-    /// The control interval of the yarn, from 0: that between this control point and the next.
+    /// The interval of the yarn, counted from 0: interval n lies between control points n and n +
+    /// 1.
     pub interval: u32,
-    /// How far along the interval, from 0 to 1.
+    /// Position along the interval, from 0 to 1.
     pub t: f64,
-    /// Distance from the start of the ray, in lengths of its direction: mm where that has length 1.
+    /// Distance from the start of the ray, in lengths of its direction: in mm if the direction has
+    /// length 1.
     pub distance: f64,
     /// The point that is hit, mm.
     pub position: [f64; 3],
@@ -89,34 +91,61 @@ impl From<Option<Hit>> for texere_hit {
 
 /// The place of a hit along its yarn.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
-    pub(crate) yarn: usize,
-    pub(crate) interval: usize,
-    pub(crate) t: f64,
+struct Place {
+    yarn: usize,
+    interval: usize,
+    t: f64,
+    position: [f64; 3],
 }
+
+/// The share of an interval by which the mesh of a yarn may lie beside its spline. With the fewest
+/// rings, one between two control points, it lies 0.05 beside a spline that turns by 90 degrees.
+const SAG: f64 = 0.25;
 
 impl Place {
     /// # Safety
     ///
     /// `hit` is valid for a read.
-    pub(crate) unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
+    unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
         check("hit", hit)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
-        let texere_hit { found, yarn, interval, t, .. } = unsafe { hit.read() };
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        let texere_hit { found, yarn, interval, t, position, .. } = unsafe { hit.read() };
         if found != 1 {
             return Err(Failure::argument(format!("hit.found is {found}, so there is no place to name")));
         }
-        Ok(Self { yarn: yarn as usize, interval: interval as usize, t })
+        Ok(Self { yarn: yarn as usize, interval: interval as usize, t, position })
     }
 
-    /// That yarns do not have this place.
-    pub(crate) fn missing(&self) -> Failure {
-        let Self { yarn, interval, t } = self;
-        Failure::argument(format!("there is no place {t} in interval {interval} of yarn {yarn}"))
+    /// The place on yarn `number` of `yarns`. Fails if there is none, and if that yarn's surface
+    /// does not pass through the hit. The hit is then one of other yarns, for example of live cloth
+    /// after an edit, and its numbers stand for another place here.
+    fn on(&self, yarns: &Yarns, number: usize) -> Result<YarnPlace, Failure> {
+        let Self { yarn, interval, t, position } = *self;
+        let at = YarnPlace::at(yarns, number, interval, t).ok_or_else(|| {
+            Failure::argument(format!("there is no place {t} in interval {interval} of yarn {yarn}"))
+        })?;
+        let points = yarns.yarn_points(number).unwrap_or_default();
+        let ends = [points[interval], points[(interval + 1) % points.len()]];
+        let half = ends.map(|end| end.half_width().max(end.half_height()));
+        let layout = yarns.layout();
+        let section = &layout.sections()[layout.yarns()[number].section as usize];
+        let corners = section.outline(layout.corners().unwrap_or(Settings::default().sides));
+        let reach = corners.iter().map(|corner| corner.x.hypot(corner.y)).fold(0.0, f32::max);
+        let length = f64::from(ends[0].position().distance(ends[1].position()));
+        let most = f64::from(half[0].max(half[1]) * reach) + SAG * length;
+        let apart = [0, 1, 2].map(|axis| (position[axis] - at.position[axis]).powi(2));
+        let apart = apart.iter().sum::<f64>().sqrt();
+        if apart <= most {
+            return Ok(at);
+        }
+        Err(Failure::argument(format!(
+            "hit.position is {apart:.3} mm from place {t} in interval {interval} of yarn {yarn}, expected \
+             {most:.3} at most: the hit is one of other yarns, or of an edited yarn before its edit"
+        )))
     }
 }
 
-/// Reads a ray of the caller's, and writes what `pick` finds along it.
+/// Reads a ray of the caller's, and writes what `pick` returns for it.
 ///
 /// # Safety
 ///
@@ -128,7 +157,7 @@ unsafe fn picked(
 ) -> Result<(), Failure> {
     check("ray", ray)?;
     check("hit", hit)?;
-    // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
     let ray = unsafe { ray.read() };
     let found = pick(&ray.into())?;
     // SAFETY: as for `ray`.
@@ -136,10 +165,11 @@ unsafe fn picked(
     Ok(())
 }
 
-/// Makes a picker of yarns. `settings` may be null: `texere_settings_default` says what holds then.
+/// Makes a picker of yarns. `settings` may be null, and then those of `texere_settings_default`
+/// apply.
 ///
-/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY where memory does
-/// not suffice.
+/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_MEMORY if memory does not
+/// suffice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_picker_new(
     yarns: *const texere_yarns,
@@ -158,8 +188,9 @@ pub unsafe extern "C" fn texere_picker_new(
     })
 }
 
-/// Writes what a ray hits first, from either side; of several at one distance the first along the
-/// yarns. A ray that goes nowhere, or whose numbers are not finite, hits nothing.
+/// Writes which triangle a ray hits first, from either side. If several lie at the same distance,
+/// it is the first along the yarns. A ray whose direction is zero, or whose numbers are not finite,
+/// hits nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_picker_pick(
     picker: *const texere_picker,
@@ -172,16 +203,16 @@ pub unsafe extern "C" fn texere_picker_pick(
     })
 }
 
-/// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as
-/// `end 3 at pick 4, cotton`. In a weft knit the place in its program follows. The hit is that of a
-/// picker of the cloth's yarns.
+/// Writes what a weaver or a knitter calls the place of a hit in a cloth, such as `end 3 at pick 4,
+/// cotton`. If the cloth is knitted by a program, the place in the program follows. The hit is one
+/// of a picker of the cloth's yarns.
 ///
 /// `*length` becomes the length of the text in bytes. The text and a zero byte go to `words`, which
-/// has room for `size` bytes. Where `size` is 0 only the length is written, and `words` may be
-/// null.
+/// has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 ///
-/// Fails with TEXERE_ARGUMENT where the cloth has no such place, and where `size` is neither 0 nor
-/// above the length.
+/// Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
+/// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
+/// the length.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_place(
     cloth: *const texere_cloth,
@@ -195,16 +226,17 @@ pub unsafe extern "C" fn texere_cloth_place(
         let place = unsafe { Place::of(hit) }?;
         let cloth = get(cloth)?;
         let yarns = cloth.cloth.yarns();
-        let at = YarnPlace::at(yarns, place.yarn, place.interval, place.t).ok_or_else(|| place.missing())?;
+        let at = place.on(yarns, place.yarn)?;
         let said = cloth.cloth.design().named(yarns, &at).to_string();
         // SAFETY: the caller vouches for `words` and `length`.
         unsafe { write_text(&said, words, size, length) }
     })
 }
 
-/// Writes what a ray hits first in a live cloth as it is now; edits count before an update.
+/// Writes what a ray hits first in a live cloth as it is now, with edits that no update has brought
+/// to the mesh yet.
 ///
-/// Fails with TEXERE_MEMORY where memory does not suffice.
+/// Fails with TEXERE_MEMORY if memory does not suffice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_pick(
     live: *const texere_live,
@@ -217,11 +249,12 @@ pub unsafe extern "C" fn texere_live_pick(
     })
 }
 
-/// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as
-/// `end 3 at pick 4, cotton`: `texere_cloth_place` says how. In yarns that come from no design it
-/// is the yarn alone.
+/// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
+/// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
+/// writes only which yarn it is.
 ///
-/// Fails with TEXERE_ARGUMENT where the live cloth has no such place.
+/// Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
+/// where the hit is.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_place(
     live: *const texere_live,
@@ -234,9 +267,9 @@ pub unsafe extern "C" fn texere_live_place(
         // SAFETY: the caller vouches for `hit`.
         let place = unsafe { Place::of(hit) }?;
         let said = alone(live, |editing| {
-            // That yarn alone, as number 0, is enough to name a place on it.
+            // To name a place, its yarn is enough: `yarn` has it alone, as number 0.
             let yarn = editing.live.only(place.yarn)?;
-            let at = YarnPlace::at(&yarn, 0, place.interval, place.t).ok_or_else(|| place.missing())?;
+            let at = place.on(&yarn, 0)?;
             let named = editing.known.design().map(|design| design.named(&yarn, &at).to_string());
             Ok(named.unwrap_or_else(|| yarn.layout().yarns()[0].origin.to_string()))
         })?;
@@ -245,7 +278,7 @@ pub unsafe extern "C" fn texere_live_place(
     })
 }
 
-/// Frees a picker, or nothing where it is null.
+/// Frees a picker. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_picker_free(picker: *mut texere_picker) {
     free(picker);

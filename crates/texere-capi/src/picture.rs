@@ -1,74 +1,82 @@
-//! Pictures: what they show, and how.
+//! Pictures: the view, the background and the quality of one.
 
-use crate::argument::{check_sized, sized};
 use crate::error::guard;
 use crate::failure::Failure;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 
 /// The whole cloth from straight above its face.
 pub const TEXERE_VIEW_FACE: u32 = 0;
-/// The whole cloth from above its lower edge, turned by `turn`.
+/// The whole cloth from above, with the eye on the side of the cloth's lower edge. `turn` turns the
+/// eye about the cloth's middle.
 pub const TEXERE_VIEW_OBLIQUE: u32 = 1;
-/// A stretch of `width_mm` round the point `at`, from above and aside.
+/// A part of the cloth, `width_mm` wide, round the point `at`, from above and aside.
 pub const TEXERE_VIEW_CLOSE_UP: u32 = 2;
-/// A cut across the ends, through the point `at`, `width_mm` of it.
+/// A cut across the ends, through the point `at`. The picture shows `width_mm` of it.
 pub const TEXERE_VIEW_CUT_WARP: u32 = 3;
-/// A cut across the picks, through the point `at`, `width_mm` of it.
+/// A cut across the picks, through the point `at`. The picture shows `width_mm` of it.
 pub const TEXERE_VIEW_CUT_WEFT: u32 = 4;
-/// From `eye` to `target`, with `field_of_view`.
+/// The view from `eye` to `target`, with `field_of_view`.
 pub const TEXERE_VIEW_EYE: u32 = 5;
-/// From `eye` to `target` with parallel lines of sight; the picture shows `height_mm`.
+/// The view in the direction from `eye` to `target`, with parallel lines of sight. The picture
+/// shows `height_mm` from its lower to its upper edge.
 pub const TEXERE_VIEW_PARALLEL: u32 = 6;
 
 /// Light grey ground that the cloth lies on and casts its shadow on.
 pub const TEXERE_BACKGROUND_GROUND: u32 = 0;
-/// The colour `color`.
+/// One colour, `color`.
 pub const TEXERE_BACKGROUND_COLOR: u32 = 1;
-/// Nothing: alpha says how much of each pixel is yarn.
+/// Nothing. Alpha says how much of each pixel shows yarn.
 pub const TEXERE_BACKGROUND_NOTHING: u32 = 2;
 
 /// What a picture shows, and how. `texere_picture_default` fills it in.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_picture {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Pixels that are drawn for each pixel of the picture, each way, from 1; each of them has four
-    /// samples.
+    /// How many pixels are drawn for each pixel of the picture, in each direction, 1 or more. Each
+    /// pixel that is drawn has four samples.
     pub supersampling: u32,
-    /// 1 if fibres that stand off yarns are drawn, else 0.
+    /// 1 if fibres that stand off yarns are drawn, else 0. Cuts never show them, nor do pictures in
+    /// which threads are narrower than four pixels.
     pub hairs: u32,
-    /// A number that begins with TEXERE_BACKGROUND.
+    /// A constant whose name begins with TEXERE_BACKGROUND.
     pub background: u32,
-    /// A colour of the background, sRGB.
+    /// The colour of the background with TEXERE_BACKGROUND_COLOR, sRGB.
     pub color: [u8; 3],
     /// Zero.
     pub reserved: u8,
-    /// A number that begins with TEXERE_VIEW.
+    /// A constant whose name begins with TEXERE_VIEW.
     pub view: u32,
     /// 1 if the cloth is turned over sideways, so that its back is seen, else 0.
     pub turned_over: u32,
-    /// Turn about the cloth's middle, radians, counter-clockwise as seen from above.
+    /// With TEXERE_VIEW_OBLIQUE: turn of the eye about the cloth's middle, radians,
+    /// counter-clockwise as seen from above.
     pub turn: f32,
-    /// A point of the cloth, x and y, mm.
+    /// With TEXERE_VIEW_CLOSE_UP and cuts: a point of the cloth, x and y, mm.
     pub at: [f32; 2],
-    /// What the picture's width shows, mm.
+    /// With TEXERE_VIEW_CLOSE_UP and cuts: how much of the cloth the picture's width shows, mm.
     pub width_mm: f32,
-    /// The eye, mm.
+    /// With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the eye, mm.
     pub eye: [f32; 3],
-    /// The point in the middle of the picture, mm.
+    /// With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the point in the middle of the picture, mm.
     pub target: [f32; 3],
-    /// What is up in the picture, of any length.
+    /// With TEXERE_VIEW_EYE and TEXERE_VIEW_PARALLEL: the direction that is up in the picture, of
+    /// any length.
     pub up: [f32; 3],
-    /// From the picture's lower to its upper edge, radians, 0.0001 to 3.1.
+    /// With TEXERE_VIEW_EYE: the angle from the picture's lower to its upper edge, radians, 0.0001
+    /// to 3.1.
     pub field_of_view: f32,
-    /// What the picture's height shows, mm.
+    /// With TEXERE_VIEW_PARALLEL: how much the picture's height shows, mm.
     pub height_mm: f32,
 }
+
+grows_after!(texere_picture, height_mm);
 
 /// The box round yarns.
 #[repr(C)]
@@ -84,11 +92,11 @@ pub struct texere_extent {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct texere_seen {
-    /// The place on the yarn's surface, mm; how far it is from the eye follows.
+    /// The place on the yarn's surface, mm.
     pub position: [f64; 3],
-    /// The yarn, from 0.
+    /// The yarn, counted from 0.
     pub yarn: u32,
-    /// 1 where a yarn is seen, else 0.
+    /// 1 if a yarn is seen, else 0.
     pub is_yarn: u32,
 }
 
@@ -96,17 +104,19 @@ pub struct texere_seen {
 #[derive(Debug)]
 pub(crate) struct Pixels {
     pub(crate) size: [u32; 2],
-    /// Three bytes each, rows from the top.
+    /// Red, green and blue of each pixel, row after row from the top.
     pub(crate) rgb: Vec<u8>,
     pub(crate) alpha: Vec<u8>,
 }
 
-/// The usual picture: width and height, pixels; and a portrait lens's field of view, radians.
+/// Width and height of the usual picture, pixels. The usual field of view, radians, is that of a
+/// portrait lens.
 const SIZE: [u32; 2] = [1600, 1200];
 const FIELD_OF_VIEW: f32 = 0.42;
 
 /// Writes the usual picture: the whole cloth from above its face, 1600 by 1200 pixels of sixteen
-/// samples each, with fibres, on the ground. The caller has set `picture->struct_size`.
+/// samples each, with fibres, on the ground. The caller sets `picture->struct_size` before the
+/// call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) -> texere_status {
     guard(|| {
@@ -132,13 +142,13 @@ pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) ->
             field_of_view: FIELD_OF_VIEW,
             height_mm: 0.0,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { picture.write(usual) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(picture, usual) };
         Ok(())
     })
 }
 
-/// The picture that `pointer` names, of one pixel at least.
+/// The picture that `pointer` points to. Fails if it has no pixels.
 ///
 /// # Safety
 ///

@@ -1,25 +1,29 @@
-//! Plans: how large a mesh is before it is made.
+//! Plans: the sizes of a mesh before it is made.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
+use std::thread::available_parallelism;
 
 use texere::backend::{Chunk, Plan, Run};
 use texere::mesh::Limits;
 use texere::{Settings, Yarns};
 
-use crate::argument::{check, check_sized};
+use crate::argument::check;
 use crate::device::{Device, texere_device};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::run::reporter;
 use crate::settings::{chosen, texere_settings};
+use crate::sized::{check_sized, grows_after, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// The plan of a mesh: yarns, settings and a device. It knows every size before anything runs.
+/// The plan of a mesh: yarns, settings and a device. It has all sizes of the mesh before the mesh
+/// is made.
 ///
-/// A mesh is made in chunks. Each is small enough that a call whose run is cancelled ends within
-/// 50 ms. Where a chunk ends inside a yarn, its last ring is also the first of the next one.
+/// A mesh is made in chunks, which are so small that a call ends within 50 ms after its run is
+/// cancelled. How many there are depends on the device, and on the number of the machine's cores.
+/// If a chunk ends inside a yarn, its last ring is also the first ring of the next chunk.
 #[derive(Debug)]
 pub struct texere_plan;
 
@@ -30,7 +34,7 @@ pub(crate) struct Planned {
     pub(crate) plan: Arc<Plan>,
     pub(crate) chunks: Vec<Chunk>,
     draws: Vec<texere_draw>,
-    /// Where the draws of each chunk begin, and how many there are in all.
+    /// For each chunk the number of its first draw, and at the end how many draws there are in all.
     draw_offsets: Vec<usize>,
     pub(crate) counts: texere_counts,
 }
@@ -40,53 +44,68 @@ impl Handle for texere_plan {
     const NAME: &str = "plan";
 }
 
-/// Chunks of a plan: buffers of 8 MiB at most, with six sides some 350,000 vertices. A slow core
-/// makes one in 20 ms, and two may be on their way when a run is cancelled.
-pub(crate) const LIMITS: Limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
+/// Bytes of a chunk's largest buffer, for each core: with six sides some 350,000 vertices. A slow
+/// core makes them in 20 ms, and two chunks may be on their way when a run is cancelled.
+const CORE_BYTES: u64 = 8 << 20;
+
+/// The fewest and the most bytes of a chunk's largest buffer. At the end of each chunk cores wait
+/// for the last one, the longer the more cores there are. On two cores a mesh in chunks of 8 MiB
+/// took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB 1 %. On sixteen
+/// cores it took 10 % longer in chunks of 16 MiB. No test breaks with other values: `c-overhead`
+/// and `c-cancel` of texere-bench show them.
+const CHUNK_BYTES: [u64; 2] = [16 << 20, 64 << 20];
+
+/// The limits that chunks of plans are cut to.
+pub(crate) static LIMITS: LazyLock<Limits> = LazyLock::new(|| {
+    let cores = available_parallelism().map_or(1, |cores| cores.get() as u64);
+    Limits { binding_bytes: (cores * CORE_BYTES).clamp(CHUNK_BYTES[0], CHUNK_BYTES[1]), ..Limits::NONE }
+});
 
 /// Sizes of a mesh.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_counts {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Zero.
     pub reserved: u32,
-    /// Rings of all yarns.
+    /// How many rings all yarns have together.
     pub rings: u64,
-    /// Vertices. A ring at which two chunks meet counts twice.
+    /// How many vertices. The vertices of a ring at which two chunks meet count twice.
     pub vertices: u64,
     /// Indices.
     pub indices: u64,
-    /// Triangles that the draws draw.
+    /// How many triangles the draws draw.
     pub triangles: u64,
     /// Draws.
     pub draws: u64,
-    /// Chunks that the mesh is made in.
+    /// How many chunks the mesh is made in.
     pub chunks: u64,
 }
 
-/// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise seen
+grows_after!(texere_counts, chunks);
+
+/// A range of indices that draws a yarn, or a part of one. Triangles are counter-clockwise as seen
 /// from outside.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_draw {
-    /// The first of its indices.
+    /// The number of its first index in the mesh.
     pub first_index: u64,
-    /// How many indices it has, three a triangle.
+    /// How many indices it has, three for each triangle.
     pub index_count: u64,
     /// What to add to an index to get the number of a vertex.
     pub base_vertex: u64,
-    /// How many vertices from `base_vertex` on its indices may refer to.
+    /// How many vertices the indices of the draw may refer to, from `base_vertex` on.
     pub vertex_count: u64,
-    /// The yarn, from 0.
+    /// The yarn, counted from 0.
     pub yarn: u32,
     /// Zero.
     pub reserved: u32,
 }
 
-/// The sizes and the draws of a mesh in these chunks of a plan, and where the draws of each chunk
-/// begin and end.
+/// The sizes and the draws of a mesh that is made in `chunks` of a plan. The third value has for
+/// each chunk the number of its first draw, and at the end how many draws there are in all.
 pub(crate) fn shape(plan: &Plan, chunks: &[Chunk]) -> (texere_counts, Vec<texere_draw>, Vec<usize>) {
     let (mut draws, mut draw_offsets) = (Vec::new(), vec![0]);
     for chunk in chunks {
@@ -122,15 +141,25 @@ impl Planned {
         Ok(Self { yarns, device, plan, chunks, draws, draw_offsets, counts })
     }
 
-    /// The plan on its way through the device, with `run` told how far it has come.
+    /// Starts to run the plan on its device. `run` gets the progress.
     pub(crate) fn start(&self, run: Option<Arc<crate::run::Run>>) -> Result<Run<'_>, Failure> {
+        self.run_of(self.plan.clone(), *LIMITS, run)
+    }
+
+    /// `plan`, a plan of these yarns, on its way through the device, in chunks that fit `limits`.
+    pub(crate) fn run_of(
+        &self,
+        plan: Arc<Plan>,
+        limits: Limits,
+        run: Option<Arc<crate::run::Run>>,
+    ) -> Result<Run<'_>, Failure> {
         let (device, mut report) = (&*self.device.backend, reporter(run));
-        Ok(Run::start(device, self.plan.clone(), self.yarns.points(), LIMITS, move |done| {
+        Ok(Run::start(device, plan, self.yarns.points(), limits, move |done| {
             report(done.rings as f64 / done.total.max(1) as f64)
         })?)
     }
 
-    /// The chunk of a number.
+    /// Chunk `number`, counted from 0.
     pub(crate) fn chunk(&self, number: u64) -> Result<&Chunk, Failure> {
         let chunk = usize::try_from(number).ok().and_then(|number| self.chunks.get(number));
         chunk.ok_or_else(|| {
@@ -145,8 +174,8 @@ impl Planned {
     }
 }
 
-/// Plans the mesh of yarns on a device. `settings` may be null: `texere_settings_default` says what
-/// holds then.
+/// Plans the mesh of yarns on a device. `settings` may be null, and then those of
+/// `texere_settings_default` apply.
 ///
 /// Fails with TEXERE_ARGUMENT for settings out of range.
 #[unsafe(no_mangle)]
@@ -167,7 +196,7 @@ pub unsafe extern "C" fn texere_plan_new(
     })
 }
 
-/// Writes the sizes of a plan's mesh. The caller has set `counts->struct_size`.
+/// Writes the sizes of a plan's mesh. The caller sets `counts->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_counts(
     plan: *const texere_plan,
@@ -177,13 +206,13 @@ pub unsafe extern "C" fn texere_plan_counts(
         // SAFETY: the caller vouches for `counts`.
         unsafe { check_sized("counts", counts) }?;
         let found = get(plan)?.counts;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { counts.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(counts, found) };
         Ok(())
     })
 }
 
-/// Lends the draws of a plan's mesh: `texere_plan_counts` says how many there are. They are valid
+/// Lends the draws of a plan's mesh. `texere_plan_counts` says how many there are. They are valid
 /// until the plan is freed.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `draws`.
@@ -195,15 +224,15 @@ pub unsafe extern "C" fn texere_plan_draws(
     guard(|| {
         check("draws", draws)?;
         let plan = get(plan)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { draws.write(plan.draws.as_ptr()) };
         Ok(())
     })
 }
 
-/// Lends where the rings of each yarn begin, and behind them how many rings there are in all:
-/// one number more than the plan has yarns, the first of which is 0. They are valid until the plan
-/// is freed. `count` gets how many numbers there are.
+/// Lends for each yarn the number of its first ring, and at the end how many rings there are in
+/// all. That is one number more than the plan has yarns. The numbers are valid until the plan is
+/// freed. `*count` becomes how many they are.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
 #[unsafe(no_mangle)]
@@ -217,7 +246,7 @@ pub unsafe extern "C" fn texere_plan_ring_offsets(
         check("count", count)?;
         let plan = get(plan)?;
         let own = plan.plan.ring_offsets();
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe {
             offsets.write(own.as_ptr());
             count.write(own.len() as u64);
@@ -230,7 +259,7 @@ pub unsafe extern "C" fn texere_plan_ring_offsets(
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_chunk {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Zero.
     pub reserved: u32,
@@ -240,18 +269,21 @@ pub struct texere_chunk {
     pub vertex_count: u64,
     /// The number of its first index in the mesh.
     pub first_index: u64,
-    /// How many indices it has. They count from its first vertex.
+    /// How many indices it has. The indices count from its first vertex.
     pub index_count: u64,
-    /// Its draws, whose numbers are those of the whole mesh: valid until the plan is freed.
+    /// Its draws. Their indices and vertices are numbered in the whole mesh. They are valid until
+    /// the plan is freed.
     pub draws: *const texere_draw,
     /// How many draws it has.
     pub draw_count: u64,
 }
 
+grows_after!(texere_chunk, draw_count);
+
 /// Writes where a chunk of a plan lies in the mesh. Chunks count from 0; `texere_plan_counts` says
-/// how many there are. The caller has set `chunk->struct_size`.
+/// how many there are. The caller sets `chunk->struct_size` before the call.
 ///
-/// Fails with TEXERE_ARGUMENT where there is no chunk of that number.
+/// Fails with TEXERE_ARGUMENT if there is no chunk of that number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_chunk(
     plan: *const texere_plan,
@@ -274,13 +306,13 @@ pub unsafe extern "C" fn texere_plan_chunk(
             draws: draws.as_ptr(),
             draw_count: draws.len() as u64,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { chunk.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(chunk, found) };
         Ok(())
     })
 }
 
-/// Frees a plan, or nothing where it is null.
+/// Frees a plan. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_free(plan: *mut texere_plan) {
     free(plan);

@@ -19,8 +19,8 @@ use crate::undrawn::Drawing;
 use crate::view::texere_view;
 use crate::yarns::texere_yarns;
 
-/// A device that makes pictures, and the yarns that it shows. One thread at a time may use it: a
-/// call while another thread's is under way fails with TEXERE_ARGUMENT.
+/// A device that makes pictures, and the yarns that the pictures show. One thread at a time may use
+/// it: a call fails with TEXERE_ARGUMENT while a call of another thread is using it.
 #[derive(Debug)]
 pub struct texere_renderer;
 
@@ -35,8 +35,8 @@ const PIXEL: usize = 4;
 /// Opens a device for pictures: "auto" for the best one, "wgpu", "wgpu:1" and so on. A
 /// `name_length` of 0 is "auto".
 ///
-/// Fails with TEXERE_DEVICE where there is none, and with TEXERE_UNSUPPORTED where the library was
-/// built without pictures.
+/// Fails with TEXERE_DEVICE if there is no such device, and with TEXERE_UNSUPPORTED if the library
+/// was built without pictures.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_open(
     name: *const c_char,
@@ -54,12 +54,12 @@ pub unsafe extern "C" fn texere_renderer_open(
     })
 }
 
-/// Sends yarns to a renderer, which shows them from now on in place of others. `settings` may be
-/// null: what suits a picture holds then. Their topology and caps have no effect. `run` may be
-/// null.
+/// Sends yarns to a renderer, which shows them from now on in place of those before. `settings` may
+/// be null, and then settings that suit a picture apply. Topology and caps of the settings have no
+/// effect. `run` may be null.
 ///
-/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED where `run` was
-/// cancelled. The renderer then shows nothing.
+/// Fails with TEXERE_ARGUMENT for settings out of range, and with TEXERE_CANCELLED if `run` was
+/// cancelled. After a cancelled call the renderer shows nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_show(
     renderer: *const texere_renderer,
@@ -78,7 +78,7 @@ pub unsafe extern "C" fn texere_renderer_show(
 
 /// Writes the box round the yarns that a renderer shows.
 ///
-/// Fails with TEXERE_ARGUMENT where it shows none.
+/// Fails with TEXERE_ARGUMENT if it shows none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_extent(
     renderer: *const texere_renderer,
@@ -87,20 +87,21 @@ pub unsafe extern "C" fn texere_renderer_extent(
     guard(|| {
         check("extent", extent)?;
         let found = alone(renderer, |drawing| drawing.extent())?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { extent.write(found) };
         Ok(())
     })
 }
 
-/// Makes a picture in the caller's memory: in each row of `pixels` red, green, blue and alpha of
-/// each pixel from the left, a byte each, sRGB; rows from the top. `pixels->stride` is the bytes
-/// from one row to the next, at least four times the width. Alpha is 255 unless the background is
-/// nothing; colours are not multiplied by it. `run` may be null.
+/// Makes a picture in the caller's memory. `pixels` has a row of bytes for each row of the picture,
+/// from the top. A row has four bytes for each pixel, from the left: red, green, blue (sRGB) and
+/// alpha. `pixels->stride` is the number of bytes from one row to the next, at least four times the
+/// width. Alpha is 255 unless the background is TEXERE_BACKGROUND_NOTHING. Colours are not
+/// multiplied by alpha. `run` may be null.
 ///
-/// Fails with TEXERE_ARGUMENT where the renderer shows no yarns, for a picture that is out of range
-/// or larger than the device takes, and for memory that is too small; with TEXERE_CANCELLED where
-/// `run` was cancelled. The memory is then as it was.
+/// Fails with TEXERE_ARGUMENT if the renderer shows no yarns, for a picture that is out of range or
+/// larger than the device takes, and for memory that is too small. Fails with TEXERE_CANCELLED if
+/// `run` was cancelled. After a failure the memory is as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_picture(
     renderer: *const texere_renderer,
@@ -113,7 +114,7 @@ pub unsafe extern "C" fn texere_renderer_picture(
         let picture = unsafe { checked(picture) }?;
         let [width, height] = [picture.width, picture.height].map(|side| side as usize);
         check("pixels", pixels)?;
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         let mut rows = unsafe { pixels.read().rows("pixels", height, width.saturating_mul(PIXEL)) }?;
         let run = get_any(run)?;
         let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
@@ -129,10 +130,11 @@ pub unsafe extern "C" fn texere_renderer_picture(
     })
 }
 
-/// Makes a picture in a `.png` file, with alpha where the background is nothing. `run` may be null.
-/// A file of that name is replaced once the new one is whole.
+/// Makes a picture in a `.png` file. The file has alpha if the background is
+/// TEXERE_BACKGROUND_NOTHING. `run` may be null. An existing file of that name is replaced only
+/// once the new one is complete.
 ///
-/// Fails as `texere_renderer_picture` does, and with TEXERE_IO where the file can't be written.
+/// Fails as `texere_renderer_picture` does, and with TEXERE_IO if the file can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_write(
     renderer: *const texere_renderer,
@@ -157,9 +159,10 @@ pub unsafe extern "C" fn texere_renderer_write(
 }
 
 /// Writes what the last picture of a renderer shows at a point, in pixels from its left and upper
-/// edges. No yarn is seen outside the picture, and before the first one.
+/// edges. No yarn is seen outside the picture, before the first picture, and after a picture that
+/// was cancelled.
 ///
-/// Fails with TEXERE_ARGUMENT where the renderer shows no yarns.
+/// Fails with TEXERE_ARGUMENT if the renderer shows no yarns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_seen(
     renderer: *const texere_renderer,
@@ -175,13 +178,13 @@ pub unsafe extern "C" fn texere_renderer_seen(
             yarn: yarn as u32,
             is_yarn: 1,
         });
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { seen.write(found) };
         Ok(())
     })
 }
 
-/// Frees a renderer, or nothing where it is null.
+/// Frees a renderer. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_renderer_free(renderer: *mut texere_renderer) {
     free(renderer);

@@ -1,4 +1,4 @@
-//! Progress of a call that takes long, and its end before it is done.
+//! Progress and cancellation of calls that take long.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,15 +9,16 @@ use crate::error::guard;
 use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
 
-/// A call that takes long, as other threads see it: how far it has come, and whether it is to end.
-/// One run may be given to one call after another; each starts it at 0.
+/// The progress of a call that takes long, and whether the call is to end. Other threads read the
+/// one and set the other. A run may be given to one call after another; the progress begins at 0 in
+/// each.
 #[derive(Debug)]
 pub struct texere_run;
 
 #[derive(Debug, Default)]
 pub(crate) struct Run {
     cancelled: AtomicBool,
-    /// The bits of an `f64` from 0 to 1.
+    /// The share of the work that is done: the bits of an `f64` from 0 to 1.
     share: AtomicU64,
 }
 
@@ -26,7 +27,7 @@ impl Handle for texere_run {
     const NAME: &str = "run";
 }
 
-/// A closure that keeps `run` up to date and asks to end where it was cancelled.
+/// A closure that keeps the progress in `run`, and returns `Break` once `run` is cancelled.
 pub(crate) fn reporter(run: Option<Arc<Run>>) -> impl FnMut(f64) -> ControlFlow<()> + Send {
     move |share| {
         let Some(run) = &run else { return ControlFlow::Continue(()) };
@@ -35,7 +36,7 @@ pub(crate) fn reporter(run: Option<Arc<Run>>) -> impl FnMut(f64) -> ControlFlow<
     }
 }
 
-/// Makes a run.
+/// Makes a run, which is not cancelled.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `out`.
 #[unsafe(no_mangle)]
@@ -59,7 +60,7 @@ pub unsafe extern "C" fn texere_run_cancel(run: *const texere_run) -> texere_sta
     })
 }
 
-/// Writes how much of the call is done, from 0 to 1. Any thread may ask.
+/// Writes the share of the call that is done, from 0 to 1. Any thread may ask.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `share`.
 #[unsafe(no_mangle)]
@@ -67,13 +68,13 @@ pub unsafe extern "C" fn texere_run_progress(run: *const texere_run, share: *mut
     guard(|| {
         check("share", share)?;
         let done = f64::from_bits(get(run)?.share.load(Ordering::Relaxed));
-        // SAFETY: neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
         unsafe { share.write(done) };
         Ok(())
     })
 }
 
-/// Frees a run, or nothing where it is null.
+/// Frees a run. A null handle is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_run_free(run: *mut texere_run) {
     free(run);

@@ -1,24 +1,25 @@
-//! Sessions: a mesh that stays on its device, chunk by chunk, for programs that draw it there.
+//! Sessions: chunks of a mesh that stay on the device, for programs that draw them there.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
 use texere::backend::Session;
 
-use crate::argument::check_sized;
 use crate::error::guard;
 use crate::handle::{Handle, alone, clear, free, get, get_any, give};
 use crate::lent::{mesh as lend, native as natives, texere_device_mesh, texere_native};
 use crate::mesh::{memory, texere_vertex};
 use crate::plan::{Planned, texere_plan};
 use crate::run::texere_run;
+use crate::sized::{check_sized, write_sized};
 use crate::status::texere_status;
 
-/// A plan at work on its device, whose mesh stays there, chunk by chunk. Two chunks are there at a
-/// time: a chunk's buffers hold its mesh until `texere_session_mesh` makes the next chunk but one.
+/// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
+/// two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
+/// older one.
 ///
-/// One thread at a time may use a session. A call while another thread's is under way fails with
-/// TEXERE_ARGUMENT.
+/// One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
+/// another thread is using it.
 #[derive(Debug)]
 pub struct texere_session;
 
@@ -33,11 +34,11 @@ impl Handle for texere_session {
     const NAME: &str = "session";
 }
 
-/// Starts a session of a plan: sends its control points to the device. `run` may be null. The plan
-/// may be freed.
+/// Starts a session of a plan: sends the control points of its yarns to the device. `run` may be
+/// null. The plan may be freed afterwards.
 ///
-/// Fails with TEXERE_UNSUPPORTED where the device has no buffers to lend, as `cpu` has none, and
-/// with TEXERE_CANCELLED where `run` was cancelled.
+/// Fails with TEXERE_UNSUPPORTED if the device has no buffers of OpenCL or Vulkan to lend, as with
+/// "cpu", and with TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_new(
     plan: *const texere_plan,
@@ -56,8 +57,8 @@ pub unsafe extern "C" fn texere_session_new(
 }
 
 /// Writes the objects of Vulkan or OpenCL that a session works with, for a program that draws or
-/// computes with its buffers. They are valid until the session is freed. The caller has set
-/// `native->struct_size`.
+/// computes with the session's buffers. The objects are valid until the session is freed. The
+/// caller sets `native->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_native(
     session: *const texere_session,
@@ -67,21 +68,21 @@ pub unsafe extern "C" fn texere_session_native(
         // SAFETY: the caller vouches for `native`.
         unsafe { check_sized("native", native) }?;
         let found = alone(session, |lending| natives(lending.session.engine()))?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { native.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(native, found) };
         Ok(())
     })
 }
 
-/// Makes the mesh of a chunk on the device, and lends its buffers there: vertices as
-/// `texere_vertex`, indices that count from the chunk's first vertex. `texere_plan_chunk` says how
-/// many there are. The call may return before the device is done: `texere_device_mesh` says what to
-/// wait for. The caller has set `mesh->struct_size`.
+/// Makes the mesh of a chunk on the device, and lends the buffers that hold it: vertices as
+/// `texere_vertex`, and indices that count from the chunk's first vertex. `texere_plan_chunk` says
+/// how many vertices and indices there are. The call may return before the device is done;
+/// `texere_device_mesh` says what to wait for. The caller sets `mesh->struct_size` before the call.
 ///
-/// The buffers belong to the library, and may be read only. They stay valid until the session is
-/// freed, and hold this chunk's mesh until the next chunk but one is made.
+/// The buffers belong to the library, and the program may only read them. They stay valid until the
+/// session is freed. They hold this chunk's mesh until two other chunks have been made.
 ///
-/// Fails with TEXERE_ARGUMENT where the plan has no chunk of that number.
+/// Fails with TEXERE_ARGUMENT if the plan has no chunk of that number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_mesh(
     session: *const texere_session,
@@ -97,13 +98,13 @@ pub unsafe extern "C" fn texere_session_mesh(
             let slot = session.slot_of_mesh(chunk)?;
             lend(session.engine(), slot, chunk)
         })?;
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { mesh.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(mesh, found) };
         Ok(())
     })
 }
 
-/// Waits until the device has done all that the session has asked of it.
+/// Waits until the device has finished all work of the session.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_wait(session: *const texere_session) -> texere_status {
     guard(|| {
@@ -114,10 +115,11 @@ pub unsafe extern "C" fn texere_session_wait(session: *const texere_session) -> 
     })
 }
 
-/// Copies the mesh of a chunk that is on the device to the caller's memory. Waits for it.
+/// Waits for the mesh of a chunk that `texere_session_mesh` has made, and copies it to the caller's
+/// memory.
 ///
-/// Fails with TEXERE_ARGUMENT where `vertex_count` or `index_count` is not what `texere_plan_chunk`
-/// says, and where the chunk was not made or is no longer there.
+/// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_plan_chunk`
+/// says, and if the chunk was not made or another chunk has taken its buffers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_read(
     session: *const texere_session,
@@ -142,8 +144,8 @@ pub unsafe extern "C" fn texere_session_read(
     })
 }
 
-/// Frees a session with its buffers, or nothing where it is null. No command of the program's that
-/// uses the buffers may be under way.
+/// Frees a session with its buffers. A null handle is allowed. None of the program's own commands
+/// may be using the buffers then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_session_free(session: *mut texere_session) {
     free(session);

@@ -1,40 +1,42 @@
-//! What can be chosen about a mesh.
+//! The settings of a mesh.
 
 use texere::Settings;
 use texere::mesh::{Frame, Quantum, Topology};
 
-use crate::argument::{check_sized, flag, sized};
+use crate::argument::flag;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::get;
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// Sections stand with their side level. Yarns that are too steep for that are carried along.
+/// Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
+/// anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
 pub const TEXERE_FRAME_UPRIGHT: u32 = 0;
-/// Sections are carried along the yarn without turning.
+/// Sections are carried along the yarn without turning about it.
 pub const TEXERE_FRAME_ROTATION_MINIMIZING: u32 = 1;
 
-/// Three indices a triangle, counted from the base vertex of their draw.
+/// Three indices for each triangle, counted from the base vertex of their draw.
 pub const TEXERE_TOPOLOGY_INDEXED: u32 = 0;
-/// One pattern of indices for all draws.
+/// One pattern of indices that all draws use, counted from the base vertex of each draw.
 pub const TEXERE_TOPOLOGY_SHARED: u32 = 1;
 /// No indices.
 pub const TEXERE_TOPOLOGY_NONE: u32 = 2;
 
-/// What can be chosen about a mesh. `texere_settings_default` fills it in.
+/// The settings of a mesh. `texere_settings_default` fills it in.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_settings {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// Points that are inserted between two control points, from 0.
+    /// How many points are inserted between two control points, 0 or more.
     pub subdivisions: u32,
-    /// Sides of the tubes, from 3.
+    /// How many sides the tubes have, 3 or more.
     pub sides: u32,
-    /// A number that begins with TEXERE_FRAME.
+    /// A constant whose name begins with TEXERE_FRAME.
     pub frame: u32,
-    /// A number that begins with TEXERE_TOPOLOGY.
+    /// A constant whose name begins with TEXERE_TOPOLOGY.
     pub topology: u32,
     /// 1 if the ends of yarns are closed, else 0.
     pub caps: u32,
@@ -42,7 +44,9 @@ pub struct texere_settings {
     pub quantum_mm: f32,
 }
 
-/// The settings that `pointer` names, or those that suit `yarns` where it is null.
+grows_after!(texere_settings, quantum_mm);
+
+/// The settings that `pointer` points to, or those that suit `yarns` if it is null.
 ///
 /// # Safety
 ///
@@ -76,8 +80,9 @@ pub(crate) unsafe fn chosen(
     Ok(Settings { subdivisions, sides, frame, topology, caps, quantum })
 }
 
-/// Writes the settings that suit yarns: as many subdivisions as their twist needs, as many sides as
-/// their polygons have. The caller has set `settings->struct_size`.
+/// Writes the settings that suit yarns: the usual ones, with as many subdivisions as the yarns'
+/// twist needs, and with as many sides as a polygon among their sections has corners. The caller
+/// sets `settings->struct_size` before the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_settings_default(
     yarns: *const texere_yarns,
@@ -103,8 +108,8 @@ pub unsafe extern "C" fn texere_settings_default(
             caps: u32::from(usual.caps),
             quantum_mm: usual.quantum.mm(),
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { settings.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(settings, found) };
         Ok(())
     })
 }

@@ -1,4 +1,4 @@
-//! The mesh of a plan, piece by piece.
+//! Making the mesh of a plan piece by piece, for a callback.
 
 use std::ffi::c_void;
 use std::ops::ControlFlow;
@@ -16,21 +16,22 @@ use crate::plan::{Planned, texere_draw, texere_plan};
 use crate::run::texere_run;
 use crate::status::texere_status;
 
-/// A piece of a mesh: vertices, or indices. All of it is valid until the callback returns, and the
-/// draws until the plan is freed.
+/// A piece of a mesh: vertices, or indices. The piece is valid until the callback returns; its
+/// draws are valid until the plan is freed.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_piece {
-    /// Bytes of this struct, which the library sets.
+    /// Size of this struct, bytes. The library sets it.
     pub struct_size: u32,
     /// Zero.
     pub reserved: u32,
-    /// The chunk that the piece is of, from 0.
+    /// The chunk that the piece belongs to, counted from 0.
     pub chunk: u64,
-    /// The number of the chunk's first vertex in the mesh: what to add to an index to get the
-    /// number of a vertex.
+    /// The number of the chunk's first vertex in the mesh. With TEXERE_TOPOLOGY_INDEXED it is what
+    /// to add to an index to get the number of a vertex; with TEXERE_TOPOLOGY_SHARED that is
+    /// `base_vertex` of each draw.
     pub base_vertex: u64,
-    /// The draws of the chunk, whose numbers are those of the whole mesh.
+    /// The draws of the chunk. Their indices and vertices are numbered in the whole mesh.
     pub draws: *const texere_draw,
     /// How many draws the chunk has.
     pub draw_count: u64,
@@ -48,12 +49,13 @@ pub struct texere_piece {
     pub index_count: u64,
 }
 
-/// Takes a piece of a mesh. Anything else than 0 ends the call that was given this callback.
+/// Takes a piece of a mesh. It returns 0 to go on; any other value ends the call that was given
+/// this callback.
 pub type texere_piece_callback =
     Option<unsafe extern "C" fn(user: *mut c_void, piece: *const texere_piece) -> i32>;
 
 impl Planned {
-    /// A piece of a chunk that holds nothing yet.
+    /// A piece of `chunk` that holds neither vertices nor indices yet.
     fn piece(&self, chunk: &Chunk) -> texere_piece {
         let draws = self.draws_of(chunk);
         texere_piece {
@@ -74,13 +76,13 @@ impl Planned {
 }
 
 /// Makes the mesh of a plan piece by piece, in bounded memory: the control points and two chunks at
-/// a time. Chunks come in order, each as all its vertices and then all its indices; a piece of
-/// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of all draws comes
-/// first, as indices of chunk 0. `run` may be null. `user` is handed to the callback, which runs on
-/// the calling thread.
+/// a time. Chunks come in order. All vertices of a chunk come before its indices. A piece of
+/// indices may end within a triangle. With TEXERE_TOPOLOGY_SHARED the pattern of indices that all
+/// draws use comes first, in a piece of chunk 0. `run` may be null. The callback runs on the
+/// calling thread, with `user` as its first argument.
 ///
-/// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-/// 0.
+/// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+/// than 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_stream(
     plan: *const texere_plan,

@@ -1,5 +1,5 @@
-//! What the structures by arrays share: choices by number, and which value of which array an error
-//! is about.
+//! What woven cloth, weft knits and warp knits from the caller's arrays share: choices by number,
+//! and the name of the array element that an error is about.
 
 use texere::FabricError;
 use texere::rest::Subject;
@@ -14,9 +14,9 @@ use crate::status::texere_status::{TEXERE_ARGUMENT, TEXERE_MEMORY};
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_knit_yarn {
-    /// Its diameter, mm; `texere_diameter` gives it for a yarn count.
+    /// Its diameter, mm. `texere_diameter` works it out from a linear density in tex.
     pub diameter_mm: f64,
-    /// Twist, radians a mm; positive is Z twist.
+    /// Twist, radians per mm; positive is Z twist.
     pub twist: f32,
     /// The number of its material, from 0.
     pub material: u32,
@@ -26,9 +26,9 @@ pub struct texere_knit_yarn {
     pub reserved: u32,
 }
 
-/// As many control points as the bends of a yarn need.
+/// Each stitch has as many control points as the bends of its yarn need.
 pub const TEXERE_CELLS_ROUND: u32 = 0;
-/// Equally many control points for each stitch.
+/// All stitches have the same number of control points.
 pub const TEXERE_CELLS_EVEN: u32 = 1;
 
 impl texere_knit_yarn {
@@ -38,15 +38,17 @@ impl texere_knit_yarn {
     }
 }
 
-/// The one of `choices` with the number `given`, from 0. `name` is the member's.
+/// Element `given` of `choices`, counted from 0. `name` is the name of the struct member in the
+/// error message.
 pub(crate) fn choice<T: Copy>(name: &str, given: u32, choices: &[T]) -> Result<T, Failure> {
     let last = choices.len() - 1;
     let chosen = usize::try_from(given).ok().and_then(|given| choices.get(given));
     chosen.copied().ok_or_else(|| Failure::argument(format!("{name} is {given}, expected 0 to {last}")))
 }
 
-/// The failure of a structure by arrays: the error, and before it the value that it is about.
-/// `name` is the struct's, `bars` are its guide bars.
+/// The failure of a structure from arrays. Its message is the error, after the name of the struct
+/// and of the array element that the error is about. `name` is the struct's name. `bars` are the
+/// guide bars of a warp knit, else none.
 pub(crate) fn refused(name: &str, error: FabricError, bars: &[Bar]) -> Failure {
     let array = error.subject().and_then(|subject| array_of(subject, bars));
     let array = array.map(|array| format!(".{array}")).unwrap_or_default();
@@ -56,7 +58,7 @@ pub(crate) fn refused(name: &str, error: FabricError, bars: &[Bar]) -> Failure {
     Failure { status, message: format!("{name}{array}: {message}"), place: None }
 }
 
-/// The array that a subject lies in, with its number there.
+/// The array element that the subject of an error comes from, such as `warp[2]`.
 fn array_of(subject: Subject, bars: &[Bar]) -> Option<String> {
     use Subject::{Color, Flatness, Jacquard, Offset, RunIn, Section, Spacing, Stiffness};
     use Subject::{Thickness, Threading, Twist};

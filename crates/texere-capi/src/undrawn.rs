@@ -1,4 +1,4 @@
-//! The refusal of pictures by a build without them.
+//! The renderer of a build without pictures, which refuses to open.
 
 use std::ops::ControlFlow;
 
@@ -7,7 +7,7 @@ use texere::{BackendError, Settings, Yarns};
 use crate::failure::Failure;
 use crate::picture::{Pixels, texere_extent, texere_picture};
 
-/// A renderer, of which this build has none.
+/// A renderer. This build can't make one, so the type has no values.
 #[derive(Debug)]
 pub(crate) enum Drawing {}
 

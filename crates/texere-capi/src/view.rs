@@ -6,20 +6,20 @@ use std::marker::PhantomData;
 use crate::argument::check;
 use crate::failure::Failure;
 
-/// Values that lie in the caller's memory: in an array of their own, or as one member of the
-/// structs of an array. `data` and `stride` are multiples of what the values are aligned to.
+/// Values that lie in the caller's memory: in an array of their own, or as one member of each
+/// struct of an array. `data` and `stride` are multiples of the alignment of the values.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_view {
     /// The first value.
     pub data: *mut c_void,
-    /// Bytes from `data` on that belong to the view: at least up to the end of the last value.
+    /// How many bytes from `data` on belong to the view: at least up to the end of the last value.
     pub size: u64,
     /// Bytes from one value to the next: at least the size of a value.
     pub stride: u64,
 }
 
-/// A view whose memory holds as many values as were asked for.
+/// A view whose memory has been checked to hold `count` values.
 #[derive(Debug)]
 pub(crate) struct Strided<'a, T> {
     first: *mut T,
@@ -28,7 +28,7 @@ pub(crate) struct Strided<'a, T> {
     memory: PhantomData<&'a mut [T]>,
 }
 
-/// A view whose memory holds as many rows of bytes as were asked for.
+/// A view whose memory has been checked to hold `count` rows of `bytes` bytes.
 #[derive(Debug)]
 pub(crate) struct Rows<'a> {
     first: *mut u8,
@@ -43,8 +43,8 @@ impl Rows<'_> {
     ///
     /// **Panics** past the last row.
     pub(crate) fn row(&self, number: usize) -> &[u8] {
-        // SAFETY: the row lies within the memory that `rows` has checked; whoever made it vouches
-        // for the rest.
+        // SAFETY: the row lies within the memory that `rows` has checked; the caller of `rows`
+        // vouches for the rest.
         unsafe { std::slice::from_raw_parts(self.place(number), self.bytes) }
     }
 
@@ -63,7 +63,7 @@ impl Rows<'_> {
 }
 
 impl texere_view {
-    /// Makes sure that the view holds `count` values, where it is not null.
+    /// Makes sure that the view holds `count` values. Gives `None` for a null view.
     ///
     /// # Safety
     ///
@@ -77,8 +77,8 @@ impl texere_view {
         if self.data.is_null() { Ok(None) } else { unsafe { self.holds(name, count) }.map(Some) }
     }
 
-    /// Makes sure that the view holds `count` values. `name` is the argument's. A null view of no
-    /// values is fine.
+    /// Makes sure that the view holds `count` values. `name` is the argument's name in error
+    /// messages. The view may be null if `count` is 0.
     ///
     /// # Safety
     ///
@@ -99,7 +99,8 @@ impl texere_view {
         Ok(Strided { first, stride: stride as usize, count, memory })
     }
 
-    /// Makes sure that the view holds `count` rows of `bytes` bytes each, both from 1.
+    /// Makes sure that the view holds `count` rows of `bytes` bytes each. Both numbers are 1 or
+    /// more.
     ///
     /// # Safety
     ///
@@ -116,7 +117,8 @@ impl texere_view {
         Ok(Rows { first, stride, count, bytes, memory: PhantomData })
     }
 
-    /// Makes sure that `count` items of `least` bytes, `what` by name, lie within the view.
+    /// Makes sure that `count` items of `least` bytes lie within the view. `what` is what the error
+    /// message calls the items.
     fn check_room(
         &self,
         name: &str,
@@ -145,19 +147,19 @@ impl texere_view {
 }
 
 impl<T: Copy> Strided<'_, T> {
-    /// The values as a slice, where nothing lies between them.
+    /// The values as a slice, or `None` if there is memory between them.
     pub(crate) fn dense(&mut self) -> Option<&mut [T]> {
         if self.count == 0 {
             return Some(&mut []);
         }
-        // SAFETY: `holds` has checked pointer and size; whoever made it vouches for the rest.
+        // SAFETY: `holds` has checked pointer and size; the caller of `rows` vouches for the rest.
         (self.stride == size_of::<T>())
             .then(|| unsafe { std::slice::from_raw_parts_mut(self.first, self.count) })
     }
 
     /// Writes the values from number `first` on.
     ///
-    /// **Panics** where they go past the last value.
+    /// **Panics** past the last value.
     pub(crate) fn write(&mut self, first: usize, values: impl IntoIterator<Item = T>) {
         for (number, value) in values.into_iter().enumerate() {
             // SAFETY: as for `place`.
@@ -165,7 +167,7 @@ impl<T: Copy> Strided<'_, T> {
         }
     }
 
-    /// Where the value of a number lies: within the memory that `holds` has checked.
+    /// The place of value `number`, within the memory that `holds` has checked.
     fn place(&self, number: usize) -> *mut T {
         assert!(number < self.count, "value {number} of {}", self.count);
         self.first.wrapping_byte_add(number * self.stride)
@@ -179,7 +181,7 @@ mod tests {
     use super::*;
 
     fn refusal(view: texere_view, count: usize) -> String {
-        // SAFETY: what is refused is not used.
+        // SAFETY: a view that is refused is not read or written.
         unsafe { view.holds::<[f32; 3]>("view", count) }.map(|_| ()).unwrap_err().message
     }
 

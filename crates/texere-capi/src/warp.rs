@@ -1,4 +1,5 @@
-//! Warp knits by arrays: the laps and the threading of each guide bar, the gauge and the yarns.
+//! Warp knits from the caller's arrays: the laps and the threading of each guide bar, the gauge and
+//! the yarns.
 
 use std::ffi::c_char;
 
@@ -6,44 +7,47 @@ use texere::warp::{Bar, CHAIN_COURSES, Chain, Lap, NEEDLES_MOST, SPACE_MAX, Thre
 use texere::weft::{Cells, Gauge};
 use texere::{Design, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused, texere_knit_yarn};
 
-/// The movement of a guide at one course: from a needle space, in front of the needles, to another.
-/// Space n lies between the needles n - 1 and n.
+/// The lap of a guide at one course: in front of the needles, the guide moves from one needle space
+/// to another. Space n lies between needle n - 1 and needle n.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_lap {
     /// The needle space before the overlap, 0 to 512.
     pub from: i32,
-    /// The needle space after it, 0 to 512, and two needles away at most. No needle: an inlay.
+    /// The needle space after the overlap, 0 to 512, and at most two needles from `from`. Where it
+    /// equals `from`, the yarn is laid in and makes no loop.
     pub to: i32,
 }
 
-/// The yarn of an empty guide.
+/// Stands in `threading` of a bar for a guide without a yarn.
 pub const TEXERE_NO_YARN: u32 = 4294967295;
 
 /// A guide bar.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_bar {
-    /// Its chain: laps, course after course from the first one knitted.
+    /// Its chain: a lap for each course, from the first course knitted on.
     pub laps: *const texere_lap,
     /// How many laps, 1 to 4096. After the last one the first one follows again.
     pub lap_count: u64,
-    /// The yarn of each guide, from 0, or TEXERE_NO_YARN. Null and 0: yarn 0 for all.
+    /// The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
+    /// all guides have yarn 0.
     pub threading: *const u32,
-    /// How many guides until the threading begins again.
+    /// How many guides `threading` is for. After the last one it begins again.
     pub guide_count: u64,
-    /// Run-in: length of yarn for a rack of 480 courses, mm; 0 leaves it to the bar.
+    /// Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
     pub run_in_mm: f64,
-    /// Needles by which the whole bar is moved towards the high numbers.
+    /// By how many needles the whole bar is moved towards the high numbers.
     pub offset: i32,
     /// Zero.
     pub reserved: u32,
@@ -53,19 +57,20 @@ pub struct texere_bar {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_warp_knit {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// A number that begins with TEXERE_CELLS.
+    /// A constant whose name begins with TEXERE_CELLS.
     pub cells: u32,
-    /// Wales, a multiple of those after which all bars begin again.
+    /// How many wales: a multiple of the number after which the threadings of all bars begin again.
     pub wales: u32,
-    /// Courses, a multiple of those after which all bars begin again.
+    /// How many courses: a multiple of the number after which the chains of all bars begin again.
     pub courses: u32,
-    /// Copies of the whole along the courses and along the wales, each from 1.
+    /// How many copies of these wales and courses lie along the courses, and how many along the
+    /// wales; each 1 or more.
     pub copies: [u32; 2],
     /// What the design is called, UTF-8.
     pub name: *const c_char,
-    /// Bytes of the name.
+    /// Length of the name, bytes.
     pub name_length: usize,
     /// The guide bars, the front one first.
     pub bars: *const texere_bar,
@@ -75,13 +80,15 @@ pub struct texere_warp_knit {
     pub yarns: *const texere_knit_yarn,
     /// How many yarns.
     pub yarn_count: u64,
-    /// From one wale to the next, mm.
+    /// Distance from one wale to the next, mm.
     pub wale_mm: f64,
-    /// From one course to the next, mm.
+    /// Distance from one course to the next, mm.
     pub course_mm: f64,
-    /// What the yarns refer to.
+    /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_warp_knit, looks);
 
 impl texere_bar {
     /// # Safety
@@ -108,7 +115,7 @@ impl texere_bar {
     }
 }
 
-/// Why laps are no chain.
+/// The failure that says why `Chain::new` refuses these laps.
 fn no_chain(name: &str, laps: &[Lap]) -> Failure {
     let space = |space: i32| (0..=SPACE_MAX).contains(&space);
     for (number, lap) in laps.iter().enumerate() {
@@ -157,11 +164,11 @@ impl texere_warp_knit {
     }
 }
 
-/// Makes a design of a warp knit from the caller's arrays, which are copied. Its yarns settle;
-/// `texere_design_finished` says otherwise.
+/// Makes a design of a warp knit from the caller's arrays, which are copied. By default its yarns
+/// come to rest; `texere_design_finished` makes a design with another finish.
 ///
-/// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-/// 0, value and limit.
+/// Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+/// array, the element (counted from 0), the value and the limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_warp_knit(
     knit: *const texere_warp_knit,

@@ -1,16 +1,17 @@
-//! Weft knits by arrays: a chart of stitches, the gauge and the yarns.
+//! Weft knits from the caller's arrays: a chart of stitches, the gauge and the yarns.
 
 use std::ffi::c_char;
 
 use texere::weft::{Beds, Cell, Cells, Chart, ChartError, Gauge, Knitted, Machine};
 use texere::{Design, FabricError, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused, texere_knit_yarn};
 
@@ -18,26 +19,29 @@ use crate::structure::{choice, refused, texere_knit_yarn};
 pub const TEXERE_STITCH_KNIT: u32 = 0;
 /// The back needle knits.
 pub const TEXERE_STITCH_PURL: u32 = 1;
-/// Front and back needle both knit, on two beds.
+/// Front and back needle both knit. This needs two beds.
 pub const TEXERE_STITCH_BOTH: u32 = 2;
-/// The needle takes the yarn and keeps its loops; on two beds it is the front needle.
+/// The needle takes the yarn and keeps its loops. On two beds it is the front needle.
 pub const TEXERE_STITCH_TUCK: u32 = 3;
-/// The back needle tucks, on two beds.
+/// The back needle takes the yarn and keeps its loops. This needs two beds.
 pub const TEXERE_STITCH_BACK_TUCK: u32 = 4;
 /// The yarn floats past.
 pub const TEXERE_STITCH_MISS: u32 = 5;
-/// The front needle knits, and its loop moves by `moved` needles, in front of the others.
+/// The front needle knits, and its loop then moves by `moved` needles, in front of other loops that
+/// move.
 pub const TEXERE_STITCH_MOVED: u32 = 6;
-/// The front needle knits, and its loop moves by `moved` needles, behind the others.
+/// The front needle knits, and its loop then moves by `moved` needles, behind other loops that
+/// move.
 pub const TEXERE_STITCH_MOVED_BEHIND: u32 = 7;
 
 /// The stitch in one wale of one course.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_stitch {
-    /// A number that begins with TEXERE_STITCH.
+    /// A constant whose name begins with TEXERE_STITCH.
     pub kind: u32,
-    /// Needles to the right, negative to the left, 256 at most, by which the loop moves.
+    /// By how many needles the loop moves, -256 to 256: positive to the right, negative to the
+    /// left. Only the two kinds that begin with TEXERE_STITCH_MOVED read it.
     pub moved: i32,
 }
 
@@ -45,45 +49,51 @@ pub struct texere_stitch {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_weft_knit {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Beds of needles, 1 or 2.
     pub beds: u32,
-    /// A number that begins with TEXERE_CELLS.
+    /// A constant whose name begins with TEXERE_CELLS.
     pub cells: u32,
-    /// Copies of the repeat along the courses and along the wales, each from 1.
+    /// How many copies of the repeat lie along the courses, and how many along the wales; each 1 or
+    /// more.
     pub copies: [u32; 2],
     /// Zero.
     pub reserved: u32,
     /// What the design is called, UTF-8.
     pub name: *const c_char,
-    /// Bytes of the name.
+    /// Length of the name, bytes.
     pub name_length: usize,
     /// Wales of the repeat, 1 to 65536.
     pub wales: u64,
     /// Courses of the repeat, 1 to 65536.
     pub courses: u64,
-    /// The stitches, course after course from the first (the bottom one), each from left to right
-    /// as seen from the technical face: `wales` times `courses` of them.
+    /// The stitches, `wales` times `courses` of them: course after course from the first, which is
+    /// the bottom one, and in each course from left to right as seen from the technical face.
     pub stitches: *const texere_stitch,
-    /// The yarn of each course, from 0, in turn from the first course on. Null and 0: yarn 0 for
-    /// all. Where the turn does not go evenly into the courses, the chart is repeated upwards.
+    /// The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
+    /// counted from 0. After the last one the first one follows again. Null with a `turn_count` of
+    /// 0: all courses take yarn 0. If `courses` is not a multiple of `turn_count`, the chart is
+    /// repeated upwards until it is.
     pub turn: *const u32,
-    /// How many yarns the turn has.
+    /// How many numbers `turn` has.
     pub turn_count: u64,
     /// The yarns.
     pub yarns: *const texere_knit_yarn,
     /// How many yarns.
     pub yarn_count: u64,
-    /// From one wale to the next, mm.
+    /// Distance from one wale to the next, mm.
     pub wale_mm: f64,
-    /// From one course to the next, mm.
+    /// Distance from one course to the next, mm.
     pub course_mm: f64,
-    /// The mean length of yarn in a loop that settling aims for, mm; 0 leaves it to the loops.
+    /// The mean length of yarn in a loop that settling aims for, mm. 0: loops take the length that
+    /// they need.
     pub loop_length_mm: f64,
-    /// What the yarns refer to.
+    /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_weft_knit, looks);
 
 impl texere_stitch {
     fn read(self, number: usize) -> Result<Cell, Failure> {
@@ -146,7 +156,8 @@ impl texere_weft_knit {
         Ok(Design::of(name, Structure::Weft(knit.with_cells(cells))))
     }
 
-    /// The failure of a chart, with the number of the stitch that it is about.
+    /// The failure of a chart, with the number of the stitch that the error is about, if it is
+    /// about one.
     fn refused(&self, error: ChartError) -> Failure {
         let stitch = match error {
             ChartError::OutOfMemory(error) => return refused("knit", FabricError::OutOfMemory(error), &[]),
@@ -161,11 +172,11 @@ impl texere_weft_knit {
     }
 }
 
-/// Makes a design of a weft knit from the caller's arrays, which are copied. Its yarns settle;
-/// `texere_design_finished` says otherwise.
+/// Makes a design of a weft knit from the caller's arrays, which are copied. By default its yarns
+/// come to rest; `texere_design_finished` makes a design with another finish.
 ///
-/// Fails with TEXERE_ARGUMENT for arrays that no knit can be: the message names array, number from
-/// 0, value and limit.
+/// Fails with TEXERE_ARGUMENT for arrays from which no knit can be made. The message names the
+/// array, the element (counted from 0), the value and the limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_weft_knit(
     knit: *const texere_weft_knit,

@@ -1,16 +1,17 @@
-//! Woven cloth by arrays: the bits of a drawdown, and the threads of warp and weft.
+//! Woven cloth from the caller's arrays: the bits of a drawdown, and the threads of warp and weft.
 
 use std::ffi::c_char;
 
 use texere::woven::{Crimp, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
 use texere::{Design, Structure};
 
-use crate::argument::{sized, text};
+use crate::argument::text;
 use crate::design::texere_design;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{clear, give};
 use crate::material::{array, texere_looks};
+use crate::sized::{grows_after, sized};
 use crate::status::texere_status;
 use crate::structure::{choice, refused};
 use crate::view::texere_view;
@@ -19,15 +20,18 @@ use crate::view::texere_view;
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_thread {
-    /// Width of its column of the cloth, mm. Two neighbours are half of each spacing apart.
+    /// Width of the strip of cloth that the thread takes, mm. The distance of two neighbours is
+    /// half the sum of their spacings.
     pub spacing_mm: f64,
-    /// Diameter of the yarn where it is round, mm; `texere_diameter` gives it for a yarn count.
+    /// Diameter that the yarn has when it is round, mm. `texere_diameter` works it out from a
+    /// linear density in tex.
     pub diameter_mm: f64,
     /// Width over height in the cloth, 0.1 to 10; 0 stands for 1, which is round.
     pub flatness: f32,
-    /// Stiffness against bending, 0.01 to 100, 1 for cotton of its diameter; 0 stands for 1.
+    /// Stiffness against bending when the yarns come to rest, 0.01 to 100; 1 for cotton yarn of the
+    /// same diameter. 0 stands for 1.
     pub stiffness: f32,
-    /// Twist, radians a mm; positive is Z twist.
+    /// Twist, radians per mm; positive is Z twist.
     pub twist: f32,
     /// The number of its material, from 0.
     pub material: u32,
@@ -39,7 +43,7 @@ pub struct texere_thread {
 
 /// Threads bend round one another as round threads do, and floats lie flat.
 pub const TEXERE_SHAPE_ROUND: u32 = 0;
-/// One control point a crossing, and one before and after.
+/// A thread has one control point at each crossing, one before all of them and one after.
 pub const TEXERE_SHAPE_CROSSING: u32 = 1;
 
 /// Threads that lie too close are only reported.
@@ -49,7 +53,8 @@ pub const TEXERE_RELIEF_FLATTEN: u32 = 1;
 /// Threads that lie too close are made thinner.
 pub const TEXERE_RELIEF_SHRINK: u32 = 2;
 
-/// The stiffer set stays the straighter.
+/// Warp and weft share the crimp by stiffness, which is taken as the fourth power of the radius:
+/// the stiffer set stays straighter. `stiffness` of the threads does not count.
 pub const TEXERE_CRIMP_STIFFNESS: u32 = 0;
 /// The warp has `warp_share` of the crimp.
 pub const TEXERE_CRIMP_SHARE: u32 = 1;
@@ -58,39 +63,41 @@ pub const TEXERE_CRIMP_SHARE: u32 = 1;
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_woven {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// A number that begins with TEXERE_SHAPE.
+    /// A constant whose name begins with TEXERE_SHAPE.
     pub shape: u32,
-    /// A number that begins with TEXERE_RELIEF.
+    /// A constant whose name begins with TEXERE_RELIEF.
     pub relief: u32,
-    /// 1 if the weft turns back round the edge ends, 0 if each pick is cut at both edges.
+    /// 1 if the weft turns back round the outermost ends, 0 if each pick is cut at both edges.
     pub selvedge: u32,
-    /// A number that begins with TEXERE_CRIMP.
+    /// A constant whose name begins with TEXERE_CRIMP.
     pub crimp: u32,
     /// The warp's share of the crimp, 0 (straight ends) to 1 (straight picks), with
     /// TEXERE_CRIMP_SHARE.
     pub warp_share: f32,
     /// What the design is called, UTF-8.
     pub name: *const c_char,
-    /// Bytes of the name.
+    /// Length of the name, bytes.
     pub name_length: usize,
     /// How many ends.
     pub ends: u64,
     /// How many picks.
     pub picks: u64,
-    /// A row of bits for each pick, which are only read. Row 0 is the first pick, at the bottom of
-    /// the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0 of its
-    /// second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` + 7) / 8
-    /// bytes, and `stride` bytes lie between the beginnings of two rows.
+    /// A row of bits for each pick. The library only reads them. Row 0 is the first pick, at the
+    /// bottom of the cloth. Bit 0 (the lowest) of a row's first byte is end 1, at the left; bit 0
+    /// of its second byte is end 9. A bit is 1 where the end lies on the face. A row has (`ends` +
+    /// 7) / 8 bytes, and `stride` bytes lie between the beginnings of two rows.
     pub drawdown: texere_view,
     /// The ends from the left: `ends` of them.
     pub warp: *const texere_thread,
     /// The picks from the bottom: `picks` of them.
     pub weft: *const texere_thread,
-    /// What the threads refer to.
+    /// The materials and sections that the threads refer to.
     pub looks: texere_looks,
 }
+
+grows_after!(texere_woven, looks);
 
 impl texere_thread {
     fn read(&self) -> Thread {
@@ -113,7 +120,8 @@ impl texere_woven {
     ///
     /// Arrays and texts are valid for reads.
     unsafe fn read(&self) -> Result<Design, Failure> {
-        // A count that no memory holds is refused as a size that no cloth has.
+        // A count that does not fit a `usize` becomes the largest one, which `Drawdown::new`
+        // refuses.
         let [ends, picks] = [self.ends, self.picks].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let refuse = |error| refused("woven", error, &[]);
         let mut drawdown = Drawdown::new(ends, picks).map_err(refuse)?;
@@ -148,11 +156,11 @@ impl texere_woven {
     }
 }
 
-/// Makes a design of woven cloth from the caller's arrays, which are copied. Its yarns settle;
-/// `texere_design_finished` says otherwise.
+/// Makes a design of woven cloth from the caller's arrays, which are copied. By default its yarns
+/// come to rest; `texere_design_finished` makes a design with another finish.
 ///
-/// Fails with TEXERE_ARGUMENT for arrays that no cloth can be: the message names array, number from
-/// 0, value and limit.
+/// Fails with TEXERE_ARGUMENT for arrays from which no cloth can be made. The message names the
+/// array, the element (counted from 0), the value and the limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_woven(
     woven: *const texere_woven,

@@ -1,10 +1,11 @@
-//! Meshes in files.
+//! Writing meshes to files.
 
 use std::ffi::{c_char, c_void};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::sync::Arc;
 
-use texere::Pipeline;
+use texere::backend;
+use texere::mesh::{Limits, Topology};
 use texere::write::Format;
 
 use crate::argument::{given, text};
@@ -12,8 +13,8 @@ use crate::callback::Answer;
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{get, get_any};
-use crate::plan::{LIMITS, Planned, texere_plan};
-use crate::run::{Run, reporter, texere_run};
+use crate::plan::{Planned, texere_plan};
+use crate::run::{Run, texere_run};
 use crate::status::texere_status;
 
 /// glTF 2.0 in one binary file, `.glb`.
@@ -21,13 +22,14 @@ pub const TEXERE_FORMAT_GLB: u32 = 0;
 /// Binary PLY, `.ply`.
 pub const TEXERE_FORMAT_PLY: u32 = 1;
 
-/// Takes `size` bytes of a file, which belong at byte `offset` of it. Pieces come in order, but at
-/// the end a writer may go back to fill in what is known last. Anything else than 0 ends the call
-/// that was given this callback. `data` is valid until the callback returns.
+/// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
+/// in order, except that at the end earlier bytes may come again with values that are only known
+/// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
+/// is valid until the callback returns.
 pub type texere_write_callback =
     Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, data: *const u8, size: usize) -> i32>;
 
-/// A file that goes to the caller's callback.
+/// A file whose bytes go to the caller's callback.
 struct CallbackFile<F> {
     take: F,
     position: u64,
@@ -59,21 +61,22 @@ impl<F> Seek for CallbackFile<F> {
     }
 }
 
+/// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
+/// 100 MB a second takes a chunk and its triangles in 50 ms.
+const LIMITS: Limits = Limits { binding_bytes: 2 << 20, ..Limits::NONE };
+
 impl Planned {
-    /// The pipeline that a writer runs.
-    fn pipeline(&self, run: Option<Arc<Run>>) -> Pipeline<'_> {
-        let mut report = reporter(run);
-        Pipeline::new(&self.yarns)
-            .settings(*self.plan.settings())
-            .limits(LIMITS)
-            .progress(move |done| report(done.rings as f64 / done.total.max(1) as f64))
+    /// The run that a writer takes: with a pattern of indices for all draws, so that the device
+    /// makes none.
+    fn writing(&self, run: Option<Arc<Run>>) -> Result<backend::Run<'_>, Failure> {
+        self.run_of(Arc::new(self.plan.with_topology(Topology::Shared)), LIMITS, run)
     }
 }
 
 /// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-/// be null. A file of that name is replaced once the new one is whole.
+/// be null. An existing file of that name is replaced only once the new one is complete.
 ///
-/// Fails with TEXERE_IO where the file can't be written, and with TEXERE_CANCELLED where `run` was
+/// Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
 /// cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_write(
@@ -86,17 +89,18 @@ pub unsafe extern "C" fn texere_plan_write(
         // SAFETY: the caller vouches for `path`.
         let path = unsafe { text("path", path, path_length) }?;
         let (plan, run) = (get(plan)?, get_any(run)?);
-        texere::write::stream(plan.pipeline(run), &*plan.device.backend, path)?;
+        texere::write::run(plan.writing(run)?, plan.yarns.materials(), path)?;
         Ok(())
     })
 }
 
-/// Makes the mesh of a plan and hands it as a file to `callback`, in bounded memory: the bytes that
-/// `texere_plan_write` writes. `format` begins with TEXERE_FORMAT. `run` may be null. `user` is
-/// handed to the callback, which runs on the calling thread.
+/// Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
+/// bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
+/// TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
+/// first argument.
 ///
-/// Fails with TEXERE_CANCELLED where `run` was cancelled, or where the callback answers other than
-/// 0. What came before is no whole file.
+/// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
+/// than 0. The bytes that came before then are not a complete file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_write_to(
     plan: *const texere_plan,
@@ -118,7 +122,7 @@ pub unsafe extern "C" fn texere_plan_write_to(
             unsafe { callback(user, offset, bytes.as_ptr(), bytes.len()) }
         };
         let file = CallbackFile { take, position: 0, end: 0 };
-        texere::write::stream_to(plan.pipeline(run), &*plan.device.backend, format, file)?;
+        texere::write::run_to(plan.writing(run)?, plan.yarns.materials(), format, file)?;
         Ok(())
     })
 }

@@ -1,14 +1,15 @@
-//! Yarns: of a cloth, of a file, or of the caller's arrays.
+//! Yarns: those of a cloth, of a file or of the caller's arrays.
 
 use std::ffi::c_char;
 
 use texere::yarn::Halves;
 use texere::{ControlPoint, Yarn, Yarns};
 
-use crate::argument::{check, check_sized, sized, slice, slice_mut, text};
+use crate::argument::{check, slice, slice_mut, text};
 use crate::error::guard;
 use crate::failure::Failure;
 use crate::handle::{Handle, clear, free, get, give};
+use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 
 /// Yarns: their control points, sections and materials.
@@ -20,7 +21,7 @@ impl Handle for texere_yarns {
     const NAME: &str = "yarns";
 }
 
-/// A place on the centreline of a yarn, mm.
+/// A control point of a yarn, mm.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct texere_point {
@@ -32,7 +33,7 @@ pub struct texere_point {
     pub z: f32,
     /// Half the width of the yarn, across the cloth.
     pub half_width: f32,
-    /// Half the height of the yarn, out of the cloth. A round yarn has its half width.
+    /// Half the height of the yarn, out of the cloth. In a round yarn it equals `half_width`.
     pub half_height: f32,
 }
 
@@ -46,41 +47,45 @@ impl From<texere_point> for ControlPoint {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_yarn_arrays {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
     /// Tension of the splines through the control points, from 0 to below 1; 0 is usual.
     pub tension: f32,
     /// How many yarns there are.
     pub yarns: u64,
-    /// Where the points of each yarn begin, and behind them how many points there are in all:
-    /// `yarns + 1` numbers, the first of which is 0.
+    /// `yarns + 1` numbers: for each yarn the number of its first point, counted from 0 in
+    /// `points`, and at the end how many points there are in all.
     pub offsets: *const u64,
-    /// The points of all yarns, yarn after yarn.
+    /// The control points of all yarns, yarn after yarn.
     pub points: *const texere_point,
-    /// For each yarn 1 if its last point joins up with its first, else 0. Null: all are open.
+    /// For each yarn 1 if its last point joins up with its first, else 0. Null: no yarn is closed.
     pub closed: *const u8,
-    /// For each yarn its twist, radians a mm; positive is Z twist. Null: none has twist.
+    /// For each yarn its twist, radians per mm; positive is Z twist. Null: no yarn is twisted.
     pub twist: *const f32,
 }
 
-/// How much yarns hold.
+grows_after!(texere_yarn_arrays, twist);
+
+/// How many yarns and control points a handle of yarns has.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_yarn_counts {
-    /// Bytes of this struct, which the caller sets.
+    /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// Tension of their splines.
+    /// Tension of the splines through the control points.
     pub tension: f32,
     /// How many yarns there are.
     pub yarns: u64,
-    /// How many control points they have in all.
+    /// How many control points all yarns have together.
     pub points: u64,
 }
 
-/// Makes round and flattened yarns of the caller's arrays, which are copied.
+grows_after!(texere_yarn_counts, points);
+
+/// Makes yarns, round or flattened, of the caller's arrays, which are copied.
 ///
-/// Fails with TEXERE_ARGUMENT for arrays that no yarns can be: the message names yarn, point, value
-/// and limit.
+/// Fails with TEXERE_ARGUMENT for arrays from which no yarns can be made. The message names the
+/// yarn, the point, the value and the limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_new(
     arrays: *const texere_yarn_arrays,
@@ -128,10 +133,9 @@ pub unsafe extern "C" fn texere_yarns_new(
     })
 }
 
-/// Reads yarns that were saved in a `.yarns` file.
+/// Reads yarns from a `.yarns` file.
 ///
-/// Fails with TEXERE_IO where the file can't be read, and with TEXERE_DESIGN where it holds no
-/// yarns.
+/// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no yarns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_read(
     path: *const c_char,
@@ -147,9 +151,9 @@ pub unsafe extern "C" fn texere_yarns_read(
     })
 }
 
-/// Saves yarns in a `.yarns` file, to the bit.
+/// Saves yarns in a `.yarns` file, which keeps every bit of them.
 ///
-/// Fails with TEXERE_IO where the file can't be written.
+/// Fails with TEXERE_IO if the file can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_write(
     yarns: *const texere_yarns,
@@ -164,7 +168,8 @@ pub unsafe extern "C" fn texere_yarns_write(
     })
 }
 
-/// Writes how much yarns hold. The caller has set `counts->struct_size`.
+/// Writes how many yarns and control points there are. The caller sets `counts->struct_size` before
+/// the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_counts(
     yarns: *const texere_yarns,
@@ -180,16 +185,17 @@ pub unsafe extern "C" fn texere_yarns_counts(
             yarns: yarns.layout().yarns().len() as u64,
             points: yarns.points().len() as u64,
         };
-        // SAFETY: `check_sized` has seen that it is neither null nor misaligned nor too short.
-        unsafe { counts.write(found) };
+        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        unsafe { write_sized(counts, found) };
         Ok(())
     })
 }
 
-/// Copies offsets and control points to the caller's memory: `yarns + 1` offsets and `points`
-/// points, as `texere_yarns_counts` says.
+/// Copies to the caller's memory where the points of each yarn begin, as in `offsets` of
+/// `texere_yarn_arrays`, and the control points. With the numbers of `texere_yarns_counts` there
+/// are `yarns + 1` offsets and `points` points.
 ///
-/// Fails with TEXERE_ARGUMENT where `offset_count` or `point_count` is another number.
+/// Fails with TEXERE_ARGUMENT if `offset_count` or `point_count` is another number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_points(
     yarns: *const texere_yarns,
@@ -204,7 +210,7 @@ pub unsafe extern "C" fn texere_yarns_points(
         exactly("offset_count", offset_count, from.len())?;
         exactly("point_count", point_count, own.len())?;
         check("offsets", offsets)?;
-        // SAFETY: the caller vouches for both; their lengths are those that were asked for.
+        // SAFETY: the caller vouches for both pointers, and `exactly` has compared the counts.
         let (offsets, points) =
             unsafe { (slice_mut("offsets", offsets, from.len())?, slice_mut("points", points, own.len())?) };
         offsets.copy_from_slice(from);
@@ -216,7 +222,7 @@ pub unsafe extern "C" fn texere_yarns_points(
     })
 }
 
-/// Makes sure that a number of values is the one that is needed.
+/// Makes sure that the caller gives room for exactly as many values as are needed.
 pub(crate) fn exactly(name: &str, given: u64, needed: usize) -> Result<(), Failure> {
     if given == needed as u64 {
         return Ok(());
@@ -224,7 +230,7 @@ pub(crate) fn exactly(name: &str, given: u64, needed: usize) -> Result<(), Failu
     Err(Failure::argument(format!("{name} is {given}, and {needed} are needed")))
 }
 
-/// Frees yarns, or nothing where they are null. Plans that were made of them stay valid.
+/// Frees yarns. A null handle is allowed. Plans that were made of the yarns stay valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_yarns_free(yarns: *mut texere_yarns) {
     free(yarns);

@@ -6,11 +6,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a header declares: a name, and what programs rely on about it.
+/// The declarations of a header: for each name the text on which programs rely.
 type Declarations = BTreeMap<String, String>;
 
-/// Reads a header as cbindgen writes it: comments behind two slashes, no macros but constants, no
-/// declaration within another one.
+/// Reads a header as cbindgen writes it: comments begin with two slashes, all macros are constants,
+/// and no declaration lies within another one.
 fn declarations(header: &str) -> Declarations {
     let mut found = Declarations::new();
     let mut code = String::new();
@@ -30,7 +30,7 @@ fn declarations(header: &str) -> Declarations {
     found
 }
 
-/// Where the semicolon of the first declaration is: the first one outside braces.
+/// The place of the semicolon that ends the first declaration: the first semicolon outside braces.
 fn end_of_declaration(code: &str) -> Option<usize> {
     let mut depth = 0;
     code.find(|letter| {
@@ -44,13 +44,15 @@ fn declare(code: &str, found: &mut Declarations) {
         let (body, name) = body.rsplit_once('}').unwrap();
         let name = name.trim();
         if head.starts_with("typedef enum") {
-            // A value of its own each, since more may come.
+            // Each value of an enum is a declaration of its own, because a later header may add
+            // values.
             for value in body.split(',').map(str::trim).filter(|value| !value.is_empty()) {
                 let (value, number) = value.split_once(" = ").unwrap();
                 found.insert(value.into(), format!("{number} of {name}"));
             }
         } else {
-            // Sizes and places depend on all fields and their order.
+            // A struct is one declaration, because its size and the places of its fields depend on
+            // all fields and their order.
             found.insert(name.into(), body.split_whitespace().collect::<Vec<_>>().join(" "));
         }
     } else if let Some((head, callback)) = code.split_once("(*").filter(|_| code.starts_with("typedef")) {
@@ -65,7 +67,7 @@ fn declare(code: &str, found: &mut Declarations) {
     }
 }
 
-/// The types of parameters: their names are nothing to a program.
+/// The types of parameters. A program does not depend on their names.
 fn types(parameters: &str) -> String {
     let parameters = parameters.strip_suffix(')').unwrap().split(',').map(str::trim);
     parameters.map(unnamed).collect::<Vec<_>>().join(", ")
@@ -84,15 +86,21 @@ fn unnamed(parameter: &str) -> String {
     }
 }
 
-/// What of `kept` is gone or is another thing in `now`, a line each; nothing where the number of
-/// the binary interface went up.
+/// Whether a struct of these members begins with its size. Members may be added at its end.
+fn says_its_size(body: &str) -> bool {
+    body.starts_with("uint32_t struct_size;")
+}
+
+/// The declarations of `kept` that are missing or different in `now`, one on each line. The text is
+/// empty if the number of the binary interface is higher in `now`.
 fn broken(kept: &str, now: &str) -> String {
     let (kept, now) = (declarations(kept), declarations(now));
     let abi = |header: &Declarations| header["TEXERE_ABI"].parse::<u32>().unwrap();
     if abi(&now) > abi(&kept) {
         return String::new();
     }
-    let broken = kept.iter().filter(|(name, meaning)| now.get(*name) != Some(meaning));
+    let holds = |was: &str, is: &str| was == is || says_its_size(was) && is.starts_with(was);
+    let broken = kept.iter().filter(|(name, was)| !now.get(*name).is_some_and(|is| holds(was, is)));
     broken
         .map(|(name, was)| format!("{name}: was {was}, is {}\n", now.get(name).map_or("gone", |is| is)))
         .collect()
@@ -131,6 +139,8 @@ fn each_kind_of_change_is_seen() {
         ("double *share", "float *share", "texere_run_progress"),
         ("uint32_t subdivisions;\n", "", "texere_settings"),
         ("uint32_t subdivisions;", "uint64_t subdivisions;", "texere_settings"),
+        ("uint32_t subdivisions;", "uint32_t later;\nuint32_t subdivisions;", "texere_settings"),
+        ("} texere_view;", "uint64_t later;\n} texere_view;", "texere_view"),
         ("TEXERE_IO = 5", "TEXERE_IO = 6", "TEXERE_IO"),
         ("#define TEXERE_REFUSED 3", "#define TEXERE_REFUSED 4", "TEXERE_REFUSED"),
         ("typedef struct texere_run texere_run;", "", "texere_run"),
@@ -150,8 +160,39 @@ fn each_kind_of_change_is_seen() {
     }
     let more = now.replace("TEXERE_PANIC = 8,", "TEXERE_PANIC = 8,\nTEXERE_LATER = 9,");
     let more = more.replace("double *share", "double *part") + "\n";
+    let more = more.replace("} texere_settings;", "uint32_t later;\n} texere_settings;");
     assert_eq!(
         broken(&now, &more.replace("uint32_t texere_abi", "void texere_later(void);\nuint32_t texere_abi")),
         ""
     );
+}
+
+/// A struct that grows must not move what lies behind it in another struct, and no member that is
+/// added may lie where an earlier program's struct has padding, which that never sets.
+#[test]
+#[cfg(target_os = "linux")]
+fn structs_that_say_their_size_can_grow() {
+    let now = declarations(&header("include/texere.h"));
+    let sized: BTreeMap<_, _> = now.iter().filter(|(_, body)| says_its_size(body)).collect();
+    assert!(sized.len() > 15, "only {} structs were found in the header", sized.len());
+    let mut code = "#include <texere.h>\n".to_owned();
+    for (name, body) in &sized {
+        for (holder, other) in now.iter().filter(|(_, other)| other.contains(';')) {
+            let held = format!("struct {name} ");
+            let held = other.split(';').any(|member| member.contains(&held) && !member.contains('*'));
+            assert!(!held, "{holder} holds {name}, which can't grow there");
+        }
+        let last = body.trim_end_matches(';').rsplit([' ', '*']).next().unwrap();
+        let last = last.split('[').next().unwrap();
+        let end = format!("offsetof({name}, {last}) + sizeof(({name} *)0)->{last}");
+        code += &format!("_Static_assert(sizeof({name}) == {end}, \"{name} ends with padding\");\n");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sizes.c");
+    std::fs::write(&file, code).unwrap();
+    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let mut compiler = std::process::Command::new("cc");
+    let checked =
+        compiler.args(["-std=c11", "-fsyntax-only", "-I"]).arg(include).arg(&file).output().unwrap();
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }

@@ -1,4 +1,4 @@
-//! Measures and checks from C are those of Rust and of the command line.
+//! Measures and checks from C are equal to those from Rust and those of the command line.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -21,7 +21,7 @@ fn designs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../designs")
 }
 
-/// The cloth of a design, at rest where it asks for that, from C and from Rust.
+/// The cloth of a design from C and from Rust, at rest if the design asks for it.
 fn cloth_of(path: &Path) -> (*mut texere_cloth, texere::Cloth) {
     let ((device, backend), path) = (opened("cpu"), path.to_str().unwrap());
     // SAFETY: all pointers are those of values that live as long as the calls.
@@ -37,7 +37,7 @@ fn check(cloth: *const texere_cloth, accuracy: f64) -> *mut texere_check {
     made(|out| unsafe { texere_check_new(cloth, null(), accuracy, null(), out) })
 }
 
-/// A text that the library lends.
+/// A copy of a text that the library lends.
 fn lent(call: impl FnOnce(*mut *const std::ffi::c_char) -> texere_status) -> String {
     let mut words = null();
     done(call(&mut words));
@@ -73,9 +73,9 @@ fn faults(check: *const texere_check) -> Vec<(texere_fault, String)> {
     (0..diagnosis(check).0.faults).map(fault).collect()
 }
 
-/// What a command of `texere` prints: its exit code, its output, its words.
+/// Runs a command of `texere`. Returns its exit code, its standard output and its standard error.
 fn texere(arguments: &[&str], design: &Path) -> (i32, String, String) {
-    // Tests lie in a folder beside the program. A test of the whole workspace builds it.
+    // The program `texere` lies in the folder above the tests. `cargo test --workspace` builds it.
     let program = std::env::current_exe().unwrap().parent().unwrap().join("../texere");
     let output = Command::new(&program).args(arguments).arg(design).output();
     assert!(output.is_ok(), "{}: {output:?}: build texere-cli", program.display());
@@ -84,7 +84,7 @@ fn texere(arguments: &[&str], design: &Path) -> (i32, String, String) {
     (output.status.code().unwrap(), said, words)
 }
 
-/// Twill too dense: ends 1.3 diameters apart, which is no room for picks.
+/// A twill that is too dense: its ends lie 1.3 diameters apart, which leaves no room for picks.
 fn dense(folder: &Path) -> PathBuf {
     let path = folder.join("dense.toml");
     let text = "weave = { notation = \"3/1\", ends = 20, picks = 16 }\nfinish.settle = false\n\
@@ -107,7 +107,7 @@ fn the_json_is_that_of_the_command_line() {
         assert_eq!(measures + "\n", texere(&["inspect", "--json"], &path).1, "{}", path.display());
         let (code, wanted, words) = texere(&["check", "--json"], &path);
         assert_eq!(faults.clone() + "\n", wanted, "{}", path.display());
-        // The verdict is the command line's word.
+        // The verdict is the one that the command line prints.
         let (found, verdict) = diagnosis(check);
         let parsed: Value = serde_json::from_str(&faults).unwrap();
         assert_eq!(parsed["clean"], (found.clean == 1), "{}", path.display());
@@ -127,8 +127,8 @@ fn number(value: &Value, path: &str) -> f64 {
     value.pointer(path).and_then(Value::as_f64).unwrap_or(f64::NAN)
 }
 
-/// Makes sure that `found` is the number at a path of keys. The JSON's reader may be off by the
-/// last digit.
+/// Makes sure that `found` is the number at a path of keys. It may differ in the last digit, to
+/// which the reader of JSON is not exact.
 #[track_caller]
 fn is_at(found: f64, value: &Value, path: &str) {
     let wanted = number(value, path);
@@ -136,7 +136,7 @@ fn is_at(found: f64, value: &Value, path: &str) {
     assert!(same, "{path}: {found}, but the JSON says {wanted}");
 }
 
-/// The structs hold the numbers that the JSON holds.
+/// The structs have the same numbers as the JSON.
 #[test]
 fn measures_are_those_of_the_json() {
     let folder = tempfile::tempdir().unwrap();
@@ -180,7 +180,8 @@ fn measures_are_those_of_the_json() {
     }
 }
 
-/// Each fault of the command line's JSON is one of the array, with its place and its words.
+/// Each fault in the command line's JSON is among the faults of `texere_check_fault`, with its
+/// place and its words.
 #[test]
 fn faults_are_those_of_the_json() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The C examples, compiled by the system's compiler and run, give the meshes that Rust gives.
+//! The C examples are compiled by the system's compiler and run. They make the same meshes as Rust.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 #![cfg(target_os = "linux")]
@@ -12,9 +12,9 @@ use texere::mesh::Limits;
 /// Compiles an example against the header and the shared library in `folder`.
 fn compiled(example: &str, folder: &Path) -> PathBuf {
     let (crate_folder, program) = (Path::new(env!("CARGO_MANIFEST_DIR")), folder.join(example));
-    // Tests lie beside the libraries that they were built with.
+    // The program of a test lies beside the libraries that it was built with.
     let libraries = std::env::current_exe().unwrap().parent().unwrap().to_owned();
-    // A program asks for the library by the number of its binary interface.
+    // A program loads the library by a name with the number of the binary interface.
     let shared = folder.join(format!("libtexere_c.so.{}", texere_c::TEXERE_ABI));
     if !shared.exists() {
         std::os::unix::fs::symlink(libraries.join("libtexere_c.so"), &shared).unwrap();
@@ -35,7 +35,7 @@ fn compiled(example: &str, folder: &Path) -> PathBuf {
     program
 }
 
-/// What a program prints, where it succeeds.
+/// The output of a program, which has to succeed.
 fn printed(program: &Path, arguments: &[&Path]) -> String {
     let output = Command::new(program).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -55,8 +55,9 @@ fn a_weave_a_knit_and_a_warp_knit_have_the_meshes_of_rust() {
         let own = folder.path().join("rust.ply");
         texere::write::stream(Pipeline::new(cloth.yarns()), &*device, &own).unwrap();
         assert!(std::fs::read(&output).unwrap() == std::fs::read(&own).unwrap(), "{design}: {said}");
-        // Cut as the library cuts it: a ring at which chunks meet counts twice.
-        let limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
+        // The same chunks as the library's, because a ring at which chunks meet counts twice.
+        let cores = std::thread::available_parallelism().unwrap().get() as u64;
+        let limits = Limits { binding_bytes: (cores << 23).clamp(16 << 20, 64 << 20), ..Limits::NONE };
         let mesh = Pipeline::new(cloth.yarns()).limits(limits).mesh(&*device).unwrap();
         let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles().count());
         let (report, draws) = (cloth.report(), mesh.draws().count());
@@ -68,8 +69,9 @@ fn a_weave_a_knit_and_a_warp_knit_have_the_meshes_of_rust() {
 fn a_programs_own_yarns_are_meshed_and_saved() {
     let folder = tempfile::tempdir().unwrap();
     let program = compiled("yarns", folder.path());
-    // A ring of 4 intervals has 9 rings, its last one its first again; the other yarn has 5. Gaps
-    // of 12 sides have 24 triangles, and two caps 10 each.
+    // The closed yarn has 4 intervals of 2 rings each and 9 rings, since its last ring is its first
+    // again. The straight yarn has 5 rings. A gap between two rings of 12 sides has 24 triangles,
+    // and each of the two caps has 10.
     assert_eq!(printed(&program, &[&folder.path().join("two.yarns")]), "14 rings, 308 triangles\n");
 }
 

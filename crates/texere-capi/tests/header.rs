@@ -1,10 +1,12 @@
-//! The header is what cbindgen makes of the sources, and the calls for C# what csbindgen makes.
+//! include/texere.h is what cbindgen makes of the sources, and csharp/Native.cs is what csbindgen
+//! makes of them.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 use std::path::Path;
 
-/// Makes sure that a file is what was made. Writes it where `TEXERE_HEADER` is set.
+/// Makes sure that the file at `path` has the contents `made`. If `TEXERE_HEADER` is set, the
+/// contents are first written to the file.
 fn is_kept(path: &str, made: &str) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     if std::env::var_os("TEXERE_HEADER").is_some() {
@@ -43,14 +45,14 @@ fn the_calls_for_c_sharp_are_those_of_the_sources() {
         .csharp_dll_name("texere_c")
         .csharp_namespace("Texere")
         .csharp_class_name("Native")
-        // What Mono's compiler knows.
+        // Mono's compiler knows neither function pointers nor `nint`.
         .csharp_use_function_pointer(false)
         .csharp_use_nint_types(false)
         .csharp_generate_const_filter(|name| name.starts_with("TEXERE_"))
         .generate_csharp_file(&file)
         .unwrap();
     let made = std::fs::read_to_string(file).unwrap();
-    // What csbindgen does not understand it leaves out, or marks in a comment.
+    // csbindgen leaves out what it does not understand, or marks it in a comment.
     assert!(
         !made.contains("this length is invalid"),
         "an array in a struct has elements that C# does not take"

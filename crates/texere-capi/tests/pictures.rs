@@ -1,5 +1,5 @@
-//! Pictures and drafts are those of Rust, to the bit. They are made on whatever Vulkan device there
-//! is; lavapipe will do.
+//! Pictures and drafts from C have the same bits as those from Rust. They need a Vulkan device, for
+//! which the software renderer lavapipe is enough.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -43,7 +43,7 @@ fn renderer() -> *mut texere_renderer {
     renderer
 }
 
-/// The scene that Rust makes of it, as for a picture of woven cloth.
+/// The scene that Rust makes of that cloth, with the settings for a picture of woven cloth.
 fn scene(cloth: &Cloth) -> Scene {
     let yarns = cloth.yarns();
     let settings = Settings { sides: picture_sides(yarns, true), ..Settings::default() };
@@ -58,7 +58,7 @@ fn usual() -> texere_picture {
     texere_picture { width: 60, height: 40, ..picture }
 }
 
-/// The pixels of a picture by C, in rows of `stride` bytes.
+/// The pixels of a picture from C, in rows of `stride` bytes.
 fn drawn(renderer: *const texere_renderer, picture: &texere_picture, stride: usize) -> Vec<u8> {
     let mut pixels = vec![77; stride * picture.height as usize];
     let view =
@@ -143,7 +143,7 @@ fn pictures_of_every_view_are_those_of_rust() {
     unsafe { texere_renderer_free(renderer) };
 }
 
-/// Whether the file by C is that of Rust.
+/// Makes sure that the file from C has the bytes of the file from Rust.
 fn same_file(renderer: *const texere_renderer, asked: &texere_picture, own: &Picture, number: usize) {
     let folder = tempfile::tempdir().unwrap();
     let [c, rust] = ["c.png", "rust.png"].map(|name| folder.path().join(name));
@@ -204,7 +204,7 @@ fn a_cancelled_run_ends_a_picture_and_leaves_memory_and_file_alone() {
         assert_eq!(texere_renderer_seen(renderer, 30.0, 20.0, &mut seen), TEXERE_OK);
         assert_eq!(seen.is_yarn, 0);
     }
-    // The renderer goes on as if nothing had been.
+    // The renderer makes pictures as before.
     let whole = drawn(renderer, &asked, 240);
     assert!(
         whole.chunks(4).all(|pixel| pixel[3] == 255)

@@ -1,4 +1,5 @@
-//! Calls of several threads at once: meshes side by side, and runs that another thread cancels.
+//! Calls of several threads at once: meshes made at the same time, and runs that another thread
+//! cancels.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -16,7 +17,7 @@ use texere_c::*;
 use common::{message, sized};
 use reading::read;
 
-/// A plain cloth of so many ends and picks.
+/// A plain weave of `count` ends and picks.
 fn woven(threads: u32, settles: bool) -> String {
     format!(
         "weave = {{ notation = \"2/1\", ends = {threads}, picks = {threads} }}\n\
@@ -25,7 +26,7 @@ fn woven(threads: u32, settles: bool) -> String {
     )
 }
 
-/// A handle that threads share, as the library lets them.
+/// A handle that threads share. The library allows that.
 struct Shared<H>(*mut H);
 
 impl<H> Clone for Shared<H> {
@@ -60,7 +61,7 @@ fn placed(text: &str) -> Shared<texere_yarns> {
     Shared(yarns)
 }
 
-/// The mesh of a design, from its text on: how it ended, and its bytes.
+/// Makes the mesh of a design from its text. Returns the status and the bytes of the mesh.
 fn mesh(text: &str, device: Shared<texere_device>) -> (Vec<[u32; 6]>, Vec<u32>) {
     let yarns = placed(text);
     let (mut plan, mut counts) = (null_mut(), sized::<texere_counts>());
@@ -103,8 +104,8 @@ fn eight_threads_mesh_eight_cloths_as_each_does_alone() {
     });
 }
 
-/// Cancels a run from another thread as soon as it has told that work is done, and gives the status
-/// of `call`, which takes the run.
+/// Makes `call` with a run, which another thread cancels as soon as its progress is above 0.
+/// Returns the status of the call.
 fn cancelled(call: impl FnOnce(*const texere_run) -> texere_status) -> texere_status {
     let mut run = null_mut();
     // SAFETY: the place lives as long as the call.
@@ -117,7 +118,7 @@ fn cancelled(call: impl FnOnce(*const texere_run) -> texere_status) -> texere_st
                 thread::yield_now();
                 // SAFETY: the place lives as long as the call.
                 let told = unsafe { texere_run_progress(run.0, &mut share) };
-                // The call has ended, and it was too fast.
+                // The run was freed: the call ended before it could be cancelled.
                 if told != TEXERE_OK {
                     return;
                 }
@@ -135,7 +136,7 @@ fn cancelled(call: impl FnOnce(*const texere_run) -> texere_status) -> texere_st
 #[test]
 fn a_run_that_another_thread_cancels_ends_rest() {
     let device = device();
-    // Both ways of coming to rest: by crossings, and by contact.
+    // Woven cloth comes to rest by its crossings, a knit by contact of its yarns.
     let knit = "knit = { chart = \"\"\"\nkpkpkp\npkpkpk\nkkkppp\"\"\", repeat = [8, 8], wales_per_cm = 8.0, \
         courses_per_cm = 10.0 }\nyarns.a.diameter_mm = 0.3\n";
     for text in [&woven(60, true), knit] {

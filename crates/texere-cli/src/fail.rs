@@ -23,16 +23,17 @@ pub(crate) struct Fail {
     source: Box<dyn Error>,
 }
 
-/// A device, a file or memory failed.
+/// Exit code: a device, a file or memory failed.
 pub(crate) const WORLD: u8 = 1;
 
-/// The command line is wrong, or the variable `TEXERE_SIMD`; clap uses the same code.
+/// Exit code: the command line or the variable `TEXERE_SIMD` is wrong. clap exits with this code
+/// too.
 pub(crate) const USAGE: u8 = 2;
 
-/// The design is wrong.
+/// Exit code: the design is wrong.
 const DESIGN: u8 = 3;
 
-/// `check` found faults.
+/// Exit code: `check` found faults.
 const CLOTH: u8 = 4;
 
 impl Fail {
@@ -45,7 +46,7 @@ impl Fail {
         Self { code: WORLD, source: format!("out of memory: {bytes} bytes for {what}").into() }
     }
 
-    /// A draft was asked of a design that has none.
+    /// A draft was asked for, but the design has none.
     pub(crate) fn no_draft(design: &Path) -> Self {
         Self { code: DESIGN, source: format!("{} has no draft or chart", design.display()).into() }
     }
@@ -64,7 +65,8 @@ impl Fail {
         }
     }
 
-    /// A plot of settling was asked for, but the cloth comes to rest by its crossings.
+    /// A plot of settling was asked for, but the design is woven. Only knits record the passes that
+    /// a plot shows.
     pub(crate) fn no_course() -> Self {
         Self {
             code: USAGE,
@@ -96,7 +98,7 @@ impl Fail {
         }
     }
 
-    /// A point that a picture can't show. The cloth reaches from `low` to `high` (x, y), mm.
+    /// The point of `--at` lies outside the cloth, which reaches from `low` to `high` (x, y), mm.
     pub(crate) fn off_the_cloth([x, y]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> Self {
         let source = format!(
             "--at {x},{y} is off the cloth, which reaches from {:.3},{:.3} to {:.3},{:.3}",
@@ -129,7 +131,8 @@ fn code_of(error: &(dyn Error + 'static)) -> u8 {
     causes.filter_map(own_code).last().unwrap_or(WORLD)
 }
 
-/// The exit code of an error without its causes, or none if the error alone decides no code.
+/// The exit code that an error has by itself, whatever its causes are. None if errors of its kind
+/// decide no code.
 fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
     // The error of a file that the design names is boxed.
     let named = || error.downcast_ref::<Box<ReadError>>().map(|error| &**error);
@@ -264,8 +267,8 @@ mod tests {
 
     use super::*;
 
-    /// A value of a design file is the design's fault. Memory, devices and settings of the command
-    /// line are not, wherever they fail.
+    /// A wrong value in a design file is the design's fault. A failure of memory or of a device is
+    /// not, and neither is a wrong setting on the command line.
     #[test]
     fn refusals_have_the_code_of_their_cause() {
         let place = || FilePlace { file: "a.k".into(), line: 3, field: "knit + f1 1".into() };

@@ -7,14 +7,14 @@ use texere::check::{SettlingReport, counted};
 use texere::write::Output;
 use texere::{Backend, BackendError, Pipeline, Yarns};
 
-use crate::args::{MeshArgs, is_yarns, undersampled};
+use crate::args::{MeshArgs, is_curves, is_yarns, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
-    if is_yarns(&args.output) {
+    if is_yarns(&args.output) || is_curves(&args.output) {
         if let Some(option) = args.settings.of_a_mesh() {
             return Err(Fail::needs_mesh(option, &args.output));
         }
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     Cloth::new(args, || Ok(&*device))?.print(|yarns, output| meshed(args, yarns, &*device, output))
 }
 
-/// The yarns of a cloth, what is said of it, and the file that it goes to.
+/// The yarns of a cloth, the warnings and the report about it, and the file that it goes to.
 struct Cloth {
     yarns: Yarns,
     output: Output,
@@ -34,7 +34,7 @@ struct Cloth {
 }
 
 impl Cloth {
-    /// The cloth that `args` name: of a design, or saved.
+    /// The cloth that `args` name: saved cloth, or the cloth of a design.
     fn new<D: Deref<Target = dyn Backend>>(
         args: &MeshArgs,
         open: impl FnOnce() -> Result<D, BackendError>,
@@ -56,7 +56,8 @@ impl Cloth {
         Ok(Self { yarns: cloth.into_parts().1, output, warnings, settling })
     }
 
-    /// Writes the file, and prints what there is to say, the file's line last.
+    /// Writes the file with `write`. Prints the warnings, then the report of settling, and last the
+    /// lines about the file, which `write` returns.
     fn print(self, write: impl FnOnce(&Yarns, Output) -> Result<String, Fail>) -> Result<(), Fail> {
         let written = write(&self.yarns, self.output)?;
         for warning in self.warnings {
@@ -69,15 +70,18 @@ impl Cloth {
     }
 }
 
-/// Writes the yarns. Returns the line to print about it.
+/// Writes the yarns themselves, or their centrelines. Returns the line to print about the file.
 fn saved(args: &MeshArgs, yarns: &Yarns, output: Output) -> Result<String, Fail> {
-    let bytes = texere::write::yarns(yarns, output)?;
+    let bytes = match is_curves(&args.output) {
+        true => texere::write::curves(yarns, output)?,
+        false => texere::write::yarns(yarns, output)?,
+    };
     let (count, points) = (yarns.layout().yarns().len(), yarns.points().len());
     let (count, points) = (counted(count, "yarn"), counted(points, "control point"));
     Ok(format!("{}: {count}, {points}, {bytes} bytes\n", line(args.output.display())))
 }
 
-/// Writes the mesh of the yarns. Returns the lines to print about it.
+/// Writes the mesh of the yarns. Returns the lines to print about the mesh and the file.
 fn meshed(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
     let settings = args.settings.of(yarns);
     let bar = progress::bar(std::io::stderr().is_terminal());

@@ -38,8 +38,8 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     bar.set_length(STEPS);
     let (end, ended) = mpsc::channel::<()>();
     let ticking = bar.clone();
-    // The bar's own ticker would panic if no thread can be started. Without this one, the bar only
-    // changes when `work` moves it.
+    // The bar's own ticker would panic if no thread could be started. If this thread can't be
+    // started, the bar only changes when `work` moves it.
     let ticker = thread::Builder::new().spawn(move || {
         while ended.recv_timeout(QUIET_FOR) == Err(RecvTimeoutError::Timeout) {
             ticking.tick();
@@ -52,7 +52,7 @@ pub(crate) fn during<T>(what: &'static str, work: impl FnOnce(&ProgressBar) -> T
     done
 }
 
-/// A function that moves `bar` on to a share of the work, from 0 to 1.
+/// A function that moves `bar` on to a share of the work that is done, from 0 to 1.
 pub(crate) fn share(bar: &ProgressBar) -> impl FnMut(f64) -> ControlFlow<()> + Send {
     let (bar, start) = (bar.clone(), Instant::now());
     move |done| {

@@ -17,7 +17,7 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     Ok(design)
 }
 
-/// The yarns in `path`, if it is a file of saved yarns; none if it is a design.
+/// The yarns in `path`, if it is a file of saved yarns, or none if it is a design.
 ///
 /// **Errors**: those of reading, and an option of the command line that needs a design.
 pub(crate) fn saved(
@@ -39,8 +39,8 @@ pub(crate) fn saved(
     }))
 }
 
-/// Reads a design for a report, which prints the warnings about the cloth itself. Also returns the
-/// remarks that were printed.
+/// Reads a design for a report. Prints the reader's remarks on standard error, except those about
+/// faults of the cloth, which the report names itself. Also returns the printed remarks.
 pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     let design = texere::read(path)?;
     let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.message);

@@ -38,13 +38,13 @@ struct Shown {
     yarns: Yarns,
     /// Whether threads lie so close that coarse tubes would pierce one another.
     lies_close: bool,
-    /// The middles of the ends of woven cloth, and of its picks, mm.
+    /// The x of each end's middle line in woven cloth, and the y of each pick's, mm.
     middles: [Vec<f64>; 2],
     settling: Option<SettlingReport>,
 }
 
 impl Shown {
-    /// The cloth that `args` name: of a design, or saved.
+    /// The cloth that `args` name: saved cloth, or the cloth of a design.
     fn new(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
         let saved = stages.time("read", || reading::saved(&args.design, &args.settings, &args.settling))?;
         match saved {
@@ -78,7 +78,7 @@ impl Shown {
     }
 }
 
-/// The middles of the ends and the picks among saved yarns, mm.
+/// The x of each end's middle line among saved yarns, and the y of each pick's, mm.
 fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
     let mut middles = [Vec::new(), Vec::new()];
     for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
@@ -104,14 +104,15 @@ fn ways(points: &[ControlPoint]) -> impl Iterator<Item = &[ControlPoint]> {
     })
 }
 
-/// The median of a coordinate of the points of a yarn, of which there is one at least.
+/// The median of a coordinate of a yarn's points. There must be at least one point.
 fn median(points: &[ControlPoint], coordinate: fn(&ControlPoint) -> f32) -> f64 {
     let mut all: Vec<f32> = points.iter().map(coordinate).collect();
     let middle = all.len() / 2;
     f64::from(*all.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
 
-/// Goes from the file to the pictures. Returns a line for each picture that was written.
+/// Reads the cloth, draws it, and writes the pictures. Returns the report of settling, a warning if
+/// there is one, and a line for each picture.
 fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Result<String, Fail> {
     let Shown { outputs, yarns, lies_close, middles, settling } = Shown::new(args, stages)?;
     let settings = args.settings.of_picture(&yarns, lies_close);
@@ -190,7 +191,7 @@ fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result
 }
 
 /// The point that was asked for, or else the middle of the cloth. A cut of woven cloth goes through
-/// the nearest thread instead, since a cut between two threads shows nothing.
+/// the thread nearest to the middle instead, since a cut between two threads shows nothing.
 fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {
@@ -208,7 +209,7 @@ fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent)
     })
 }
 
-/// The one of `places` that is nearest to `wanted`.
+/// The one of `places` that is nearest to `wanted`, or `wanted` itself if there are no places.
 fn nearest(places: Vec<f64>, wanted: f32) -> f32 {
     let off = |place: &f64| (place - f64::from(wanted)).abs();
     places

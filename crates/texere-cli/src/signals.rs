@@ -13,11 +13,11 @@ use signal_hook::low_level::emulate_default_handler;
 
 use crate::fail::WORLD;
 
-/// Signals that end a program by default, except those of its own faults.
+/// Signals that end a program by default, except those that its own faults raise, such as SIGSEGV.
 const ENDS: [i32; 10] =
     [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
 
-/// Held from the signal that ends the program until the program has ended.
+/// A lock that the listener takes when a signal ends the program, and holds until the end.
 static ENDING: Mutex<()> = Mutex::new(());
 
 /// From this call on, Ctrl-C and similar signals first remove unfinished files, whatever the
@@ -35,8 +35,8 @@ pub(crate) fn listen() {
         texere::write::abandon();
         let _ = emulate_default_handler(signal);
     });
-    // If no thread can be started, signals end the program as usual, and the next write in that
-    // folder removes the unfinished file.
+    // If no thread can be started, signals end the program as usual. An unfinished file then stays
+    // until the next write in its folder removes it.
     if listener.is_ok() {
         let ignored = ignored();
         let heard = ENDS.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
@@ -46,14 +46,14 @@ pub(crate) fn listen() {
     }
 }
 
-/// Waits for the end, if a signal is ending the program. A write that the signal stopped is then
-/// not reported as a failure.
+/// If a signal is ending the program, waits for the end. A write that the signal stopped is
+/// therefore not reported as a failure.
 pub(crate) fn give_way() {
     drop(ENDING.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The ignored signals, one bit for each, from the lowest bit. Linux lists them in a file. On other
-/// systems SIGHUP alone is assumed to be ignored.
+/// The ignored signals: bit N - 1, counted from the lowest bit as 0, stands for signal N. Linux
+/// lists them in a file. On other systems SIGHUP alone is assumed to be ignored.
 fn ignored() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -23,7 +23,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     // Drivers are loaded for the window, and again when yarns settle.
     drivers::quietly(|| {
         view.open(|event: &Event| match event {
-            // The failure is printed at the end.
+            // If a line could not be printed, the program does not leave here, but returns that
+            // failure.
             Event::Closed if printed.is_ok() => leave(),
             event if printed.is_ok() => printed = print::text(&format!("{}\n", line(event))),
             _ => {}
@@ -32,8 +33,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     printed
 }
 
-/// Ends the program at once, whatever its threads and the device are doing. A driver may not be
-/// closed while it works, so the system frees everything.
+/// Ends the program at once, whatever its threads and the device are doing. A driver must not be
+/// closed while it works, so it stays open, and the operating system frees everything.
 fn leave() -> ! {
     #[cfg(unix)]
     crate::signals::give_way();

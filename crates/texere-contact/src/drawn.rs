@@ -17,8 +17,8 @@ pub const WRUNG: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drawn {
     /// The least width half way between two rings, as a share of the width on the rings, with bends
-    /// straightened. It is 1 if neighbouring rings have the same roll, and otherwise the cosine of
-    /// half the turn between them. Below [`WRUNG`] the tube is wrung.
+    /// straightened. It is the cosine of half the turn between neighbouring rings, so it is 1 if
+    /// both have the same roll. Below [`WRUNG`] the tube is wrung.
     pub width: f64,
     /// The place of the least width.
     pub width_at: Option<YarnPlace>,
@@ -29,8 +29,8 @@ pub struct Drawn {
     pub inwards_at: Option<YarnPlace>,
 }
 
-/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The memory needed is as
-/// much as the yarns have.
+/// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The measurement needs as
+/// much memory as the yarns take.
 ///
 /// **Errors**: [`ContactError::Settings`] for settings that no mesh of `yarns` is made with, and
 /// [`ContactError::OutOfMemory`].

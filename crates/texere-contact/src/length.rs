@@ -50,8 +50,8 @@ pub fn length_mm(yarns: &Yarns) -> f64 {
     lengths_mm(yarns).iter().sum()
 }
 
-/// Length of one round of a yarn whose next round lies `shift` (x and y, mm) further on, mm. The
-/// length includes the way from the last control point to the next round.
+/// Length of one round of a yarn that repeats, mm: through its control points and on to the first
+/// point of the next round. The next round lies `shift` (x and y, mm) further on.
 pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let count = points.len() as isize;
@@ -64,7 +64,7 @@ pub fn round_length_mm(points: &[ControlPoint], shift: [f64; 2], tension: f32) -
 }
 
 /// Length of a part of an open yarn, mm: the intervals between the control points of the range
-/// `part`. The control points beside the range count, too, for the curve at its ends.
+/// `part`. The curve at the ends of the range also depends on the control points beside the range.
 pub fn part_length_mm(points: &[ControlPoint], part: Range<usize>, tension: f32) -> f64 {
     let s = tangent_factor(tension);
     let last = part.end.min(points.len()).saturating_sub(1);

@@ -36,7 +36,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Adds units to the total. To be called before any unit is done.
+    /// Adds units to the total. It must be called before any unit is done.
     pub fn expect(&self, units: u64) {
         self.total.fetch_add(units, Ordering::Relaxed);
     }

@@ -27,8 +27,8 @@ impl Default for Placement {
 
 impl Yarns {
     /// These yarns in another place. Sizes are multiplied by the scale, and twist per mm is divided
-    /// by it, so that the mesh differs by the placement alone. If any yarn leans by [up
-    /// directions](Layout::ups), all yarns of the placed cloth get ups.
+    /// by it, so that the mesh differs by the placement alone. If any yarn has [up
+    /// directions](Layout::ups), all yarns of the placed cloth get up directions.
     ///
     /// **Errors**: the errors of [`Layout::new`] and [`Yarns::new`] if yarns exceed the limits of
     /// size, twist and position. An invalid scale or turn gives the same errors.
@@ -67,8 +67,8 @@ impl Yarns {
             let [x, y] = [up.x, up.y].map(f64::from);
             [(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, up.z]
         };
-        // Ups that were worked out are turned, too: for a flattened yarn that goes straight up,
-        // nothing else says where its height points.
+        // Up directions that the layout has worked out are turned, too. Nothing else says where the
+        // height of a flattened yarn points if the yarn goes straight up.
         if self.layout().leans() {
             placed.with_ups(self.standing_ups().iter().map(turned).collect())
         } else {
@@ -77,7 +77,7 @@ impl Yarns {
     }
 
     /// All yarns of several cloths, one after the other. Equal materials and equal sections are
-    /// kept once. Sources are kept if all cloths have sources.
+    /// kept once. [Sources](Yarns::with_sources) are kept if all cloths have them.
     ///
     /// **Errors**: [`YarnError::NoYarns`] for no cloths, [`YarnError::OtherTension`] if their
     /// splines differ in tension.
@@ -122,7 +122,7 @@ impl Yarns {
         if cloths.iter().all(|cloth| cloth.ups().is_none()) {
             return Ok(merged);
         }
-        // If one cloth has ups, the ups of all other cloths are written out, too.
+        // If any cloth has up directions, yarns without any get those of their upright frames.
         let ups = cloths.iter().flat_map(|cloth| cloth.standing_ups());
         merged.with_ups(ups.map(|up| up.to_array()).collect())
     }
@@ -150,8 +150,8 @@ impl Yarns {
         if self.sources().is_some() { only.with_sources(sources) } else { Ok(only) }
     }
 
-    /// Adds the sources of the points of several cloths, one cloth after the other, if all cloths
-    /// have sources.
+    /// Adds the [sources](Yarns::with_sources) of the points of several cloths, one cloth after the
+    /// other, if all cloths have sources.
     pub(crate) fn with_sources_of<'a>(
         self,
         cloths: impl IntoIterator<Item = &'a Self>,

@@ -7,10 +7,10 @@
 //! |---|---|
 //! | tables of yarns, blocks and chunks | [`Plan`], [`Block`], [`Chunk`], [`Chunks`], [`Part`] |
 //! | a plan's run on a device, chunk by chunk | [`Run`] |
-//! | the driver and its rules | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
+//! | the driver, and its order of calls | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
-//! | callbacks that are asked whether to go on | [`ScanWatch`] |
-//! | callbacks and slices that take results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
+//! | a callback that says whether a scan goes on | [`ScanWatch`] |
+//! | callbacks and slices that receive results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
 //! | a mesh that stays on the device | [`LiveMesh`], [`Edits`], [`Draw`] |
 //! | allocations that may fail | [`zeroed`], [`filled`], [`room`], [`room_for`] |
 //! | points with virtual ends | [`PaddedPoints`], [`renew_virtual_ends`] |

@@ -39,8 +39,8 @@ impl Ends {
 /// The boundary of a piece of cloth: the repeat's size, and the ends of each yarn.
 ///
 /// In a repeat the cloth is endless: every yarn has copies, moved by whole repeats along each axis
-/// that has a period. Control points may lie anywhere, even beyond the repeat's edge, as long as
-/// each round of a repeating yarn begins where the round before ends.
+/// that has a period. Control points may lie anywhere, even beyond the repeat's edge. A repeating
+/// yarn goes on from its last control point to the moved copy of its first.
 ///
 /// ```
 /// use texere_core::{Boundary, ControlPoint, Ends, Yarn, Yarns};
@@ -93,9 +93,9 @@ impl Boundary {
 
     /// Checks that the boundary fits the yarns of `layout`.
     ///
-    /// **Errors**: [`BoundaryError`] for another number of yarns, a yarn that is closed in the
-    /// boundary or in the layout alone, a yarn that goes on along an axis without a period, and a
-    /// yarn that goes on by 0 repeats along both axes.
+    /// **Errors**: [`BoundaryError`] for a number of ends that differs from that of the yarns, a
+    /// yarn that is closed in only one of boundary and layout, a yarn that goes on along an axis
+    /// without a period, and a yarn that goes on by 0 repeats along both axes.
     pub fn check(&self, layout: &Layout) -> Result<(), BoundaryError> {
         if self.ends.len() != layout.yarns().len() {
             return Err(BoundaryError::EndsCount { ends: self.ends.len(), yarns: layout.yarns().len() });
@@ -132,7 +132,8 @@ impl Boundary {
         &self.ends
     }
 
-    /// The way along x and y to a yarn's next round, mm. It is 0 unless the yarn repeats.
+    /// A repeating yarn goes on at a copy of its first control point. This is how far that copy is
+    /// moved along x and y, mm. It is 0 for a yarn that does not repeat.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

@@ -6,7 +6,7 @@
 //! | the centreline | [`Segment`], at a [`Sample`], with [`tangent_factor`]; [`Sampling`] places the rings on it |
 //! | a ring's axes | [`Basis`], [`up_between`] |
 //! | a ring's roll | [`Turn`] |
-//! | a ring | [`Ring`], with a [`Stance`] for the slope of its vertices |
+//! | a ring | [`Ring`], with its [`Stance`], which all its vertices share |
 //! | a ring's corners | [`Section`](crate::Section), [`corner_angle`] |
 //! | triangles | [`index_pattern`] |
 //!

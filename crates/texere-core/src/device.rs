@@ -81,23 +81,25 @@ impl fmt::Display for Schedule {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Capabilities {
-    /// Yarns can be settled by their contacts with [`Backend::settler`]. Otherwise the call fails
-    /// with [`BackendError::NoSettling`].
+    /// Whether yarns can be settled by their contacts with [`Backend::settler`]. If not, the call
+    /// fails with [`BackendError::NoSettling`].
     pub settle: bool,
-    /// Woven cloth can be settled by its crossings with [`Backend::crossings_settler`]. Otherwise
-    /// the call fails with [`BackendError::NoCrossings`].
+    /// Whether woven cloth can be settled by its crossings with [`Backend::crossings_settler`]. If
+    /// not, the call fails with [`BackendError::NoCrossings`].
     pub settle_crossings: bool,
-    /// A mesh can stay on the device and be edited there: [`LiveMesh`](crate::backend::LiveMesh).
-    /// Otherwise the call fails with [`BackendError::NoEditing`].
+    /// Whether a mesh can stay on the device and be edited there, as a
+    /// [`LiveMesh`](crate::backend::LiveMesh). If not, opening one fails with
+    /// [`BackendError::NoEditing`].
     pub edit: bool,
-    /// Vertices can have attributes: [`Session::attributes`](crate::backend::Session::attributes).
-    /// Otherwise the call fails with [`BackendError::NoAttributes`].
+    /// Whether vertices can have attributes, by
+    /// [`Session::attributes`](crate::backend::Session::attributes). If not, the call fails with
+    /// [`BackendError::NoAttributes`].
     pub attributes: bool,
-    /// Vertices can be packed: [`Session::packed`](crate::backend::Session::packed). Otherwise the
-    /// call fails with [`BackendError::NoPacking`].
+    /// Whether vertices can be packed, by [`Session::packed`](crate::backend::Session::packed). If
+    /// not, the call fails with [`BackendError::NoPacking`].
     pub pack: bool,
-    /// The crate `texere-render` can draw pictures on the device. Otherwise opening the device for
-    /// pictures fails with [`BackendError::NoDevice`].
+    /// Whether the crate `texere-render` can draw pictures on the device. If not, opening the
+    /// device for pictures fails with [`BackendError::NoDevice`].
     pub draw: bool,
 }
 
@@ -135,8 +137,8 @@ pub trait Backend: fmt::Debug + Send + Sync {
 
     /// Opens an engine for a plan. The engine owns all the device memory that its work needs.
     ///
-    /// **Errors**: [`BackendError`] if memory is short, the device fails, or it or its schedule
-    /// can't do the work.
+    /// **Errors**: [`BackendError`] if memory is short, the device fails, or the device or its
+    /// schedule can't do the work.
     fn engine(&self, plan: Arc<Plan>) -> Result<Box<dyn Engine>, BackendError>;
 
     /// Opens a settler for a plan. The settler owns all the device memory that its work needs.

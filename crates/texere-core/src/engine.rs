@@ -73,9 +73,9 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// - Control points come within the plan's range. Results of control points that were replaced are
 ///   not read afterwards.
-/// - If the plan needs a scan, it comes after any number of uploads and before the next stage. A
-///   session scans all yarns at once. A live mesh scans each run of neighbouring yarns that have
-///   changed.
+/// - If the plan needs a scan, the scan comes after any number of uploads and before the next
+///   stage. A session scans all yarns at once. A live mesh scans each run of neighbouring yarns
+///   that have changed.
 /// - Every chunk is one of the plan's own, or a patch of one. A patch is the chunk with only some
 ///   rows of its block table. Its results have the places that they have in the whole chunk. A
 ///   chunk is loaded into a slot before a stage runs for it there. While a chunk's results are
@@ -88,8 +88,8 @@ pub type PackedSink<'a> = &'a mut dyn FnMut(u32, &[PackedVertex]) -> ControlFlow
 ///
 /// A caller without a session has to keep these rules itself. An engine whose kernels check no
 /// bounds must check the two rules that memory safety depends on: the chunk belongs to its plan
-/// ([`Plan::owns`](crate::backend::Plan::owns)), and it is loaded in the slot. Otherwise it returns
-/// [`BackendError::NotLoaded`].
+/// ([`Plan::owns`](crate::backend::Plan::owns)), and it is loaded in the slot. If a caller breaks
+/// either rule, the engine returns [`BackendError::NotLoaded`].
 ///
 /// Calls may return before their work is done, except those that read.
 ///
@@ -109,8 +109,8 @@ pub trait Engine: Any + fmt::Debug + Send {
         take_over_host(self, settler)
     }
 
-    /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has as many slots as
-    /// are asked for, works on patches of chunks without touching the chunk's other results, and
+    /// Whether the engine supports [`LiveMesh`](crate::backend::LiveMesh): it has a slot for every
+    /// chunk of a mesh, works on patches of chunks without touching the chunk's other results, and
     /// takes edited plans. Its backend says the same in [`Capabilities::edit`].
     ///
     /// The provided method answers false.
@@ -175,8 +175,9 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Works out the length of yarn before each block's start, for the yarns of
     /// [`ScanChunks::yarns`]. Chunks come as in [`Engine::scan`].
     ///
-    /// The provided method fails with [`BackendError::NoAttributes`]. It suits engines that make no
-    /// attributes, as do those of [`Engine::attributes`] and [`Engine::read_attributes`].
+    /// The provided method fails with [`BackendError::NoAttributes`], as do those of
+    /// [`Engine::attributes`] and [`Engine::read_attributes`]. They suit engines that make no
+    /// attributes.
     fn measure(&mut self, chunks: ScanChunks<'_>) -> Result<(), BackendError> {
         let _ = chunks;
         Err(BackendError::NoAttributes)
@@ -204,8 +205,8 @@ pub trait Engine: Any + fmt::Debug + Send {
     /// Makes the packed vertices of `chunk`, in memory of their own in `slot`. They need no mesh,
     /// and no indices are made.
     ///
-    /// The provided method fails with [`BackendError::NoPacking`]. It suits engines that pack no
-    /// vertices, as does that of [`Engine::read_packed`].
+    /// The provided method fails with [`BackendError::NoPacking`], as does that of
+    /// [`Engine::read_packed`]. They suit engines that pack no vertices.
     fn packed(&mut self, slot: Slot, chunk: &Chunk) -> Result<(), BackendError> {
         let _ = (slot, chunk);
         Err(BackendError::NoPacking)
@@ -297,7 +298,8 @@ impl<'a> ScanChunks<'a> {
         (self.watch)()
     }
 
-    /// The yarns whose rolls, or lengths, are asked for.
+    /// The yarns whose rolls ([`Engine::scan`]) or lengths ([`Engine::measure`]) the engine works
+    /// out.
     #[must_use]
     pub const fn yarns(&self) -> Range<usize> {
         self.yarns.start..self.yarns.end

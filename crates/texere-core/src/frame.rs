@@ -37,9 +37,9 @@ pub const VERTICAL: f32 = 1e-12;
 /// The squared length below which the second reflection's mirror has no direction. The yarn then
 /// makes a hairpin, to within a milliradian.
 ///
-/// On a smooth curve the mirror is two tangents long. At a hairpin's tip it vanishes, apart from
-/// the rounding of the last chord, whose direction is off by some (K + 1)² units in the last place.
-/// Up to K = 90 the bound lies above that error.
+/// On a smooth curve the mirror's length is about 2. At a hairpin's tip it is 0, apart from the
+/// rounding of the last chord. With K rings between two control points, that chord's direction is
+/// off by some (K + 1)² units in the last place. Up to K = 90 the bound lies above that error.
 pub const NO_MIRROR: f32 = 1e-6;
 
 impl Basis {
@@ -77,8 +77,8 @@ impl Basis {
 
 impl Frame {
     /// The change of roll from a ring to the next. It is the twist `turns_per_mm` times the length
-    /// of `chord`. In a rotation minimising frame the turn that keeps the section from turning is
-    /// added.
+    /// of `chord`. A rotation minimising frame adds the turn, against the upright frame, that keeps
+    /// the section from turning about the yarn.
     ///
     /// `chord` (mm) leads from one ring's centre to the next. Tangents are unit vectors.
     /// **Source**: Wang, Jüttler, Zheng and Liu, "Computation of rotation minimizing frames", ACM
@@ -111,7 +111,7 @@ impl Frame {
 }
 
 /// The angle, as a fraction of a turn, from the next ring's upright side to this ring's upright
-/// side after it is carried to the next ring.
+/// side as it is carried to the next ring.
 #[inline]
 fn transport_turns(tangent: Vec3, next_tangent: Vec3, chord: Vec3) -> f32 {
     let side = Basis::upright(tangent).side;

@@ -65,7 +65,7 @@ pub struct Yarn {
 }
 
 impl Yarn {
-    /// The least number of control points that such a yarn needs.
+    /// The least number of control points that the yarn needs.
     pub(crate) const fn points_least(&self) -> u64 {
         if self.closed { 3 } else { 2 }
     }
@@ -79,8 +79,8 @@ pub const TWIST_LIMIT: f32 = 1e3;
 /// control points.
 pub type Edits<'a> = BTreeMap<usize, (Yarn, &'a [ControlPoint])>;
 
-/// All data of yarns that decide counts and offsets, their up directions, and the tension of their
-/// splines. Positions and materials are in [`Yarns`](crate::Yarns).
+/// The data of yarns on which counts and offsets depend, with the yarns' up directions and the
+/// tension of their splines. Positions and materials are in [`Yarns`](crate::Yarns).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     offsets: Vec<u64>,
@@ -252,7 +252,7 @@ impl Layout {
         !self.leaning.is_empty()
     }
 
-    /// The up directions of the control points of `yarn`, unit vectors. They are
+    /// The up directions, or *ups*, of the control points of `yarn`, unit vectors. They are
     /// [given](crate::Yarns::with_ups), or worked out for a flattened yarn that is vertical at a
     /// control point, or whose upright frame would turn about the yarn by more than 15 degrees
     /// within a control interval. Ups that are worked out follow the upright frame where it turns

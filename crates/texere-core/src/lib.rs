@@ -16,7 +16,7 @@
 //! | the root | types for programs: yarns, settings, pipelines, meshes, devices, errors |
 //! | [`definitions`] | the geometry that all backends share: the spline, rolls, rings |
 //! | [`mod@backend`] | types to write a backend with: plans, chunks, engines, sessions |
-//! | [`settling`], [`crossings`] | how yarns come to rest, and the part of a device in it |
+//! | [`settling`], [`crossings`] | how yarns come to rest, with the traits of a device that settles |
 //!
 //! Lengths are in mm, and angles in radians unless a name says turns. x runs along the weft or
 //! course, y along the warp or wale, and z out of the technical face. The axes are right-handed.

@@ -7,11 +7,12 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
-use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
+use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, ScanWatch, Slot, StageTimings};
+use crate::plan::BLOCK_RINGS;
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
-/// The whole mesh of a fabric on a device. Yarns can be edited. Then only the changed yarns are
-/// sent and scanned again, and only the changed parts of the mesh are made again.
+/// The whole mesh of a fabric on a device. Yarns can be edited. After an edit only the changed
+/// yarns are sent and scanned again, and only the changed parts of the mesh are made again.
 ///
 /// A [`Session`](crate::backend::Session) works chunk by chunk in the memory of two chunks, while a
 /// live mesh keeps the meshes of all chunks. With [room](Plan::with_room) in the plan, a yarn may
@@ -55,6 +56,10 @@ pub struct LiveMesh<E: Engine + ?Sized = dyn Engine> {
     engine: Box<E>,
 }
 
+/// The vertices that a watched update makes between two calls of its watch, some 20 ms of a slow
+/// core.
+const WATCHED_VERTICES: usize = 700_000;
+
 /// Part of a chunk that an update has made again. Vertices and indices are counted from the chunk's
 /// start.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -73,8 +78,8 @@ pub struct Change {
 impl LiveMesh {
     /// Makes room for the whole mesh of `plan` on `device`, in chunks cut to the device's limits.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
-    /// schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or the device or
+    /// its schedule can't do the work, and the errors of [`LiveMesh::with_engine`].
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Self::with_engine(device.engine(plan.clone())?, &device.info().limits, plan)
     }
@@ -162,28 +167,59 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     ///
     /// **Errors**: [`SessionError::Backend`]. The next update then makes the same changes.
     pub fn update(&mut self) -> Result<Vec<Change>, SessionError> {
-        if self.plan.needs_scan() {
-            self.go_through(E::scan)?;
+        let made = self.remake(usize::MAX, &mut || ControlFlow::Continue(()))?;
+        Ok(match made {
+            ControlFlow::Continue(changes) => changes,
+            ControlFlow::Break(()) => Vec::new(),
+        })
+    }
+
+    /// [`LiveMesh::update`], which ends early if `watch` answers `Break`, and returns that answer.
+    /// The next update then makes the same changes. `watch` is called after each 700,000 vertices
+    /// or so.
+    ///
+    /// **Errors**: the errors of [`LiveMesh::update`].
+    pub fn update_watched(
+        &mut self,
+        watch: ScanWatch<'_>,
+    ) -> Result<ControlFlow<(), Vec<Change>>, SessionError> {
+        let sides = self.plan.settings().sides as usize;
+        self.remake(WATCHED_VERTICES.div_ceil(BLOCK_RINGS as usize * sides), watch)
+    }
+
+    /// Makes again everything that has changed, `most` rows of a chunk's block table at a time.
+    fn remake(
+        &mut self,
+        most: usize,
+        watch: ScanWatch<'_>,
+    ) -> Result<ControlFlow<(), Vec<Change>>, SessionError> {
+        if self.plan.needs_scan() && self.go_through(E::scan, watch)?.is_break() {
+            return Ok(ControlFlow::Break(()));
         }
-        if self.attributes {
-            self.go_through(E::measure)?;
+        if self.attributes && self.go_through(E::measure, watch)?.is_break() {
+            return Ok(ControlFlow::Break(()));
         }
         let mut changes = Vec::new();
         for (number, rows) in self.stale_rows() {
-            let patch = self.plan.patch(&self.chunks[number], &rows);
-            let slot = Slot::new(number as u32);
-            self.engine.load(slot, &patch)?;
-            if self.engine.mesh_reads_rings() {
-                self.engine.trajectory(slot, &patch)?;
-            }
-            self.engine.mesh(slot, &patch)?;
-            if self.attributes {
-                self.engine.attributes(slot, &patch)?;
+            for rows in pieces(&rows, most) {
+                let patch = self.plan.patch(&self.chunks[number], &rows);
+                let slot = Slot::new(number as u32);
+                self.engine.load(slot, &patch)?;
+                if self.engine.mesh_reads_rings() {
+                    self.engine.trajectory(slot, &patch)?;
+                }
+                self.engine.mesh(slot, &patch)?;
+                if self.attributes {
+                    self.engine.attributes(slot, &patch)?;
+                }
+                if watch().is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
             }
             changes.extend(rows.into_iter().map(|rows| self.change(number, rows)));
         }
         self.stale.clear();
-        Ok(changes)
+        Ok(ControlFlow::Continue(changes))
     }
 
     /// Makes [attributes](crate::Attribute), too, from the next update on. That update makes
@@ -278,11 +314,13 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
         first..end
     }
 
-    /// Calls `scan` for all yarns that have changed, once for each run of neighbours.
+    /// Calls `scan` for all yarns that have changed, once for each run of neighbours, until `watch`
+    /// answers `Break`.
     fn go_through(
         &mut self,
         scan: impl Fn(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
-    ) -> Result<(), SessionError> {
+        watch: ScanWatch<'_>,
+    ) -> Result<ControlFlow<()>, SessionError> {
         let stale: Vec<_> = self.stale.keys().copied().collect();
         for yarns in runs(&stale) {
             let chunks = self.chunks_of(yarns.start).start..self.chunks_of(yarns.end - 1).end;
@@ -294,12 +332,12 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
                 let chunk = (!rows.is_empty()).then(|| plan.patch(chunk, &[rows]))?;
                 Some(ScanChunk { slot: Slot::new(number as u32), chunk, loaded: false })
             });
-            scan(
-                &mut self.engine,
-                ScanChunks::new(&mut patches, yarns.clone(), &mut || ControlFlow::Continue(())),
-            )?;
+            scan(&mut self.engine, ScanChunks::new(&mut patches, yarns.clone(), watch))?;
+            if watch().is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
         }
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     }
 
     /// The rows of each chunk to be made again.
@@ -334,6 +372,24 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
             caps: before(first.yarn)..before(last.yarn + 1),
         }
     }
+}
+
+/// `rows`, ranges in order, cut after each `most` rows.
+fn pieces(rows: &[Range<usize>], most: usize) -> Vec<Vec<Range<usize>>> {
+    let (mut all, mut room) = (Vec::<Vec<Range<usize>>>::new(), 0);
+    for rows in rows {
+        let mut start = rows.start;
+        while start < rows.end {
+            if room == 0 {
+                all.push(Vec::new());
+                room = most;
+            }
+            let end = rows.end.min(start.saturating_add(room));
+            all.last_mut().into_iter().for_each(|last| last.push(start..end));
+            (room, start) = (room - (end - start), end);
+        }
+    }
+    all
 }
 
 /// The runs of neighbouring numbers among `yarns`, which are in order.

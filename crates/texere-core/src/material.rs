@@ -16,8 +16,8 @@ pub struct Material {
     /// Linear density in tex (g/km), if the design has one.
     pub tex: Option<f32>,
     /// Hairiness: the length in cm of the fibres that stand off one cm of yarn (the H of Uster
-    /// testers). It is 0 for yarn without such fibres, as filament, and [`HAIRINESS_LIMIT`] at
-    /// most. Only pictures show these fibres.
+    /// testers). It is 0 for yarn without such fibres, for example filament, and
+    /// [`HAIRINESS_LIMIT`] at most. Only pictures show these fibres.
     pub hairiness: f32,
 }
 

@@ -81,8 +81,8 @@ impl Plan {
     }
 
     /// The indices of [`Plan::shared_indices`] as `u16`, in half the memory, for interfaces that
-    /// draw with 16-bit indices and a base vertex. `None` if an index does not fit, which needs
-    /// more than seven sides and a long yarn.
+    /// draw with 16-bit indices and a base vertex. `None` if an index does not fit, which happens
+    /// only with more than seven sides and a long yarn.
     ///
     /// ```
     /// use texere_core::backend::Plan;
@@ -116,9 +116,9 @@ impl Plan {
         self.draws_from(chunk, chunk.first_vertex(), chunk.first_index())
     }
 
-    /// The draws of a chunk from its own buffers, such as a device lends, yarn by yarn, the caps
-    /// last. Vertices and indices are counted from the chunk's first. Empty with
-    /// [`Topology::None`].
+    /// The draws of a chunk from the chunk's own buffers, such as those that a device lends. They
+    /// come yarn by yarn, the caps last. Vertices and indices are counted from the chunk's first.
+    /// Empty with [`Topology::None`].
     ///
     /// Draw nothing but these ranges of a [`LiveMesh`](crate::backend::LiveMesh), because unused
     /// room between yarns holds triangles from before an edit. An edit may change the draws, for

@@ -164,8 +164,8 @@ impl PackedVertex {
         Self { normal: octahedral(normal), ..self }
     }
 
-    /// The vertex within [reach](Quantum::reach) of the place `near`, mm. `quantum` is the one that
-    /// the vertex was packed with.
+    /// The vertex with these bits that lies within [reach](Quantum::reach) of the place `near`, mm.
+    /// `quantum` is the one that the vertex was packed with.
     #[must_use]
     pub fn unpack(&self, near: [f32; 3], quantum: Quantum) -> Vertex {
         let [low, high] = self.position;

@@ -49,10 +49,10 @@ impl std::fmt::Debug for Pipeline<'_> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// A pipeline for `yarns` with the paper's settings: K = 1, nc = 6, upright, indexed, no caps.
-    /// If that undersamples twist, K is as large as [`Settings::following`] makes it. Tubes with a
-    /// polygon section have as many sides as the polygon has corners. [`Pipeline::subdivisions`]
-    /// and [`Pipeline::sides`] override both.
+    /// A pipeline for `yarns` with the paper's settings: one point between two control points (K =
+    /// 1), six sides (nc = 6), upright, indexed, no caps. If that undersamples twist, K is as large
+    /// as [`Settings::following`] makes it. Tubes with a polygon section have as many sides as the
+    /// polygon has corners. [`Pipeline::subdivisions`] and [`Pipeline::sides`] override both.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
         Self {
@@ -215,18 +215,12 @@ impl<'a> Pipeline<'a> {
         Ok(plan.within(&points, bounds))
     }
 
-    /// The limits that chunks on `device` are cut to.
-    #[must_use]
-    pub fn limits_on(&self, device: &dyn Backend) -> Limits {
-        self.limits.min(&device.info().limits)
-    }
-
     /// The whole mesh, in host memory.
     ///
     /// **Errors**: the errors of [`Pipeline::plan`]; [`PipelineError::Plan`] if not even one block
-    /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or it or
-    /// its schedule can't do the work; [`PipelineError::Session`] for a settler of other yarns; and
-    /// [`PipelineError::Cancelled`] if the progress callback asks to stop.
+    /// fits the limits; [`PipelineError::Backend`] if memory is short, the device fails, or the
+    /// device or its schedule can't do the work; [`PipelineError::Session`] for a settler of other
+    /// yarns; and [`PipelineError::Cancelled`] if the progress callback asks to stop.
     pub fn mesh(self, device: &dyn Backend) -> Result<Mesh, PipelineError> {
         let materials = self.yarns.materials().clone();
         let (plan, chunks, run) = self.start(device)?;
@@ -248,8 +242,8 @@ impl<'a> Pipeline<'a> {
         device: &dyn Backend,
         sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, PipelineError> {
-        let limits = self.limits_on(device);
-        let (plan, run) = self.run(device)?;
+        let run = self.into_run(device)?;
+        let (plan, limits) = (run.plan().clone(), run.limits());
         run.stream(plan.chunks(&limits)?, sink)
     }
 
@@ -314,29 +308,32 @@ impl<'a> Pipeline<'a> {
     /// **Errors**: the errors of [`Pipeline::mesh`].
     pub fn trajectory(mut self, device: &dyn Backend) -> Result<Trajectory, PipelineError> {
         self.within = None;
-        let limits = self.limits_on(device);
-        let (plan, run) = self.run(device)?;
+        let run = self.into_run(device)?;
+        let (plan, limits) = (run.plan().clone(), run.limits());
         let mut rings: Vec<Ring> = zeroed("rings", plan.counts().rings)?;
         run.trajectory(plan.chunks(&limits)?, copier(&mut rings))?;
         Ok(Trajectory { rings, offsets: plan.ring_offsets().to_vec() })
     }
 
-    /// The plan, and its run on `device`.
-    fn run(self, device: &dyn Backend) -> Result<(Arc<Plan>, Run<'a>), PipelineError> {
+    /// The run of the pipeline's plan on `device`: its control points are sent, and its rolls
+    /// worked out.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`].
+    pub fn into_run(self, device: &dyn Backend) -> Result<Run<'a>, PipelineError> {
         let plan = Arc::new(self.plan()?);
         let points = match self.settler {
             Some(settler) => Points::Settled(settler),
             None => Points::Given(self.yarns.points()),
         };
         let progress = self.progress.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
-        Ok((plan.clone(), Run::of(device, plan, points, &self.limits, progress)?))
+        Run::of(device, plan, points, &self.limits, progress)
     }
 
     /// The plan, all its chunks for `device`, and its run.
     fn start(self, device: &dyn Backend) -> Result<(Arc<Plan>, Vec<Chunk>, Run<'a>), PipelineError> {
-        let limits = self.limits_on(device);
-        let (plan, run) = self.run(device)?;
-        let chunks = plan.chunks(&limits)?.collect();
+        let run = self.into_run(device)?;
+        let plan = run.plan().clone();
+        let chunks = plan.chunks(&run.limits())?.collect();
         Ok((plan, chunks, run))
     }
 }

@@ -18,7 +18,8 @@ pub struct YarnPlace {
     pub t: f64,
     /// The point of the centreline, mm.
     pub position: [f64; 3],
-    /// The source of the nearer of the interval's control points, if the yarns have sources.
+    /// The [source](Yarns::with_sources) of the nearer of the interval's control points, if the
+    /// yarns have sources.
     pub source: Option<u32>,
 }
 

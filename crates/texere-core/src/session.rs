@@ -21,8 +21,9 @@ pub use self::error::SessionError;
 /// The work on one fabric on one device: upload and scan, then the stages chunk by chunk.
 ///
 /// Chunks come from [`Plan::chunks`] of the session's plan, cut to the device's limits or to
-/// stricter ones. Two chunks may be in flight. A stage for a third chunk reuses the memory of the
-/// oldest. [`Pipeline`](crate::Pipeline) makes all these calls. Without a pipeline they are:
+/// stricter ones. Two chunks may be in flight: the session keeps their tables and results. A stage
+/// for a third chunk reuses the memory of the oldest. [`Pipeline`](crate::Pipeline) makes all these
+/// calls. Without a pipeline they are:
 ///
 /// ```
 /// use std::{ops::ControlFlow, sync::Arc};
@@ -83,8 +84,8 @@ impl InFlight {
 impl Session {
     /// Starts a session for a plan on `device`.
     ///
-    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or it or its
-    /// schedule can't do the work.
+    /// **Errors**: [`SessionError::Backend`] if memory is short, the device fails, or the device or
+    /// its schedule can't do the work.
     pub fn new(device: &dyn Backend, plan: Arc<Plan>) -> Result<Self, SessionError> {
         Ok(Self::with_engine(device.engine(plan.clone())?, device.info().limits, plan))
     }
@@ -262,9 +263,9 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 if only a
-    /// fused [`Session::mesh`] has run. If the sink answers `Break`, reading ends and the answer is
-    /// returned.
+    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 first if
+    /// [`Session::mesh`] has run without it, straight from control points. If the sink answers
+    /// `Break`, reading ends and the answer is returned.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and
     /// [`SessionError::Backend`].

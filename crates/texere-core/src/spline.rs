@@ -101,9 +101,10 @@ pub const ARC_NODES: [f32; 4] = [0.183_434_64, 0.525_532_4, 0.796_666_5, 0.960_2
 /// The weight of each node and of its negative.
 pub const ARC_WEIGHTS: [f32; 4] = [0.362_683_8, 0.313_706_64, 0.222_381_03, 0.101_228_54];
 
-/// The least evenness for a single rule. Evenness is the speed at the slowest node divided by that
-/// at the fastest. Below this value the spline's speed may almost reach zero between nodes and have
-/// a kink there. Then the length is divided into [`ARC_PANELS`] parts with a rule each.
+/// The least evenness at which the rule is applied once to the whole length. Evenness is the speed
+/// at the slowest node divided by that at the fastest. Below this value the spline's speed may
+/// almost reach zero between nodes and have a kink there. Then the length is divided into
+/// [`ARC_PANELS`] parts, and the rule is applied to each.
 pub const ARC_EVEN: f32 = 0.5;
 
 /// Number of parts into which a length is divided if the spline's speed is uneven.
@@ -155,8 +156,8 @@ impl Segment {
     /// The spline at `t` in \[0, 1\].
     ///
     /// If the velocity at `t` is zero, the tangent is the direction of the yarn just after that
-    /// place (just before it at t = 1, a yarn's end). It follows from the first derivative that is
-    /// not zero. If all are zero, the tangent is +x.
+    /// place (just before it at t = 1, a yarn's end). The lowest derivative that is not zero gives
+    /// this direction. If all derivatives are zero, the tangent is +x.
     #[must_use]
     #[inline]
     pub fn sample(&self, t: f32) -> Sample {
@@ -215,7 +216,7 @@ impl Segment {
         })
     }
 
-    /// The length by a single rule, and whether the speed is [even](ARC_EVEN).
+    /// The length by one application of the rule, and whether the speed is [even](ARC_EVEN).
     #[inline]
     fn length_by_rule(&self, from: f32, to: f32) -> (f32, bool) {
         let (middle, half) = ((from + to) * 0.5, (to - from) * 0.5);

@@ -24,8 +24,8 @@ pub(crate) const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 /// vertical counted for half its turn.
 const PLACES: u32 = 16;
 
-/// The spline's `s` at tension 0. Tension changes the tangents within an interval, but hardly the
-/// turn over the whole interval.
+/// The factor of the spline's tangents at tension 0. Tension changes the tangents within an
+/// interval, but hardly the turn over the whole interval.
 const S: f32 = 0.5;
 
 /// Whether, within any interval, the upright frame of a yarn turns about the yarn by more than
@@ -40,9 +40,9 @@ pub(crate) fn upright_turns_beyond(points: &[ControlPoint], closed: bool, most: 
 /// Whether a yarn's tube would be wrung in frames along the up directions `ups` of the yarn's
 /// points.
 ///
-/// The frame of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. The outline of a
-/// flattened yarn turns with its ups in any case, and so does the section, so that the shape stays
-/// unless the ups turn over.
+/// The frame of a round yarn may turn by [`UPRIGHT_TURN`] within an interval. In a flattened yarn
+/// the section turns together with the outline, so that the tube keeps its shape unless the ups
+/// turn over.
 pub(crate) fn wrings(points: &[ControlPoint], closed: bool, ups: &[Vec3]) -> bool {
     let flat = is_flat(points);
     intervals(points, closed).any(|interval| {
@@ -65,8 +65,8 @@ pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
 /// The bound is that of [`turn_at_most`], with the tangent of the swing instead of its angle, and 1
 /// instead of the sine of the slope. In plan, the middle one of an interval's three Bézier
 /// velocities is three times the chord, less the two velocities at the ends. In a yarn that keeps
-/// to a plane, the middle one may point backwards, beside a much longer chord for example, as long
-/// as the velocity itself never does.
+/// to a plane the middle one may point backwards, for example if the next chord is much longer, as
+/// long as the velocity itself never does.
 pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);
@@ -92,7 +92,8 @@ pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
 /// velocity. It is infinite if they give no bound.
 ///
 /// An upright frame turns by the sine of the yarn's slope times the turn of the yarn's direction in
-/// plan.
+/// plan, that is, seen along z. The swing is the largest angle, in plan, between one of the three
+/// points and the chord.
 fn turn_at_most(window: &[ControlPoint; 4]) -> f32 {
     let [before, start, end, after] = window.map(|point| point.position());
     let (span, first, last) = (end - start, (end - before) * S, (after - start) * S);

@@ -11,7 +11,7 @@ use crate::definitions::tangent_factor;
 use crate::sampling::SUBDIVISIONS_MAX;
 use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 
-/// The largest turn, by twist, of a section that shows its turn from one ring to the next, radians:
+/// The largest turn by twist from one ring to the next, for a section that shows its turn, radians:
 /// 30 degrees.
 ///
 /// A tube is then nowhere narrower between two rings than cos 15°, 0.97, of its width on them. If
@@ -19,9 +19,10 @@ use crate::{ControlPoint, Origin, Section, Settings, Yarn, Yarns};
 /// plies lean is lost. If they turn by more, plies appear to lean the other way.
 pub const TWIST_STEP: f64 = std::f64::consts::FRAC_PI_6;
 
-/// The largest turn of a round yarn in a mesh, radians: 90 degrees. A circle looks the same however
-/// it is turned. The only visible effect is that the tube gets narrower between rings, at 90
-/// degrees to cos 45°, 0.71. The command `check` counts a tube as wrung from 120 degrees on.
+/// The largest turn by twist from one ring to the next, for a round yarn in a mesh, radians: 90
+/// degrees. A circle looks the same however it is turned. The only visible effect is that the tube
+/// gets narrower between rings, at 90 degrees to cos 45°, 0.71. The command `check` counts a tube
+/// as wrung from 120 degrees on.
 const ROUND_STEP: f64 = std::f64::consts::FRAC_PI_2;
 
 /// The most subdivisions that are chosen for twist alone. They are enough for 5.3 turns between two
@@ -154,8 +155,8 @@ fn step_of_outline(section: &Section) -> f64 {
 #[derive(Debug, Clone, Copy)]
 struct Turning {
     yarn: usize,
-    /// The turn, radians, in the interval with most turn. All its rings count as if they were as
-    /// far apart as those furthest apart.
+    /// The turn, radians, in the interval with most turn. All rings of the interval count as if
+    /// they were as far apart as the two that are furthest apart.
     interval: f64,
     /// The largest allowed turn from ring to ring, radians.
     step_max: f64,

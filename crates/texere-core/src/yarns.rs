@@ -194,7 +194,7 @@ impl Yarns {
         &self.points
     }
 
-    /// The source of each control point, if there are sources.
+    /// The [source](Yarns::with_sources) of each control point, if there are sources.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
         self.sources.as_deref()

@@ -1,5 +1,5 @@
-//! Characters that look like a hyphen or a slash, but are others. Word processors put them in the
-//! place of a hyphen or a slash.
+//! Characters that look like a hyphen or a slash, but are other characters. Word processors put
+//! them in the place of a hyphen or a slash.
 
 /// The name and the Unicode number of the first character of a text that looks like a hyphen but is
 /// another character.

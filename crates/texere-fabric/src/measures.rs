@@ -75,7 +75,7 @@ pub struct KnitMeasures {
     /// Loops to the square centimetre.
     pub stitch_density: f64,
     /// The tightness factor: √tex over the loop length in cm. None if one of the yarns that are
-    /// used has no tex, or if they do not all have the same.
+    /// used has no tex, or if the yarns do not all have the same tex.
     ///
     /// **Source**: the tightness factor of the International Wool Secretariat; plain jersey has 11
     /// to 17, usually 14 to 15.
@@ -85,18 +85,21 @@ pub struct KnitMeasures {
 /// The share of the cloth that its threads cover, seen from the face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
-    /// Peirce's cover factors: threads to the inch over √Ne. That is 28 times the share of the
+    /// Peirce's cover factors: threads to the inch over √Ne. A factor is 28 times the share of the
     /// width that round cotton yarns of the same weight would cover. None if a material that is
     /// used has no tex.
     ///
-    /// **Source**: Peirce 1937 (K = n/√N; with K = 28 cotton threads touch side by side).
+    /// **Source**: Peirce 1937: K = n/√N, with n threads to the inch of the cotton count N (Ne).
+    /// With K = 28, cotton threads touch side by side.
     pub factor: Option<BySet<f64>>,
-    /// Peirce's cover factor of the cloth, K₁ + K₂ - K₁ K₂ / 28. None if [`Cover::factor`] is none.
+    /// Peirce's cover factor of the cloth: K₁ + K₂ - K₁ K₂ / 28, with K₁ and K₂ the factors of warp
+    /// and weft. None if [`Cover::factor`] is none.
     pub cloth_factor: Option<f64>,
     /// Share of the width that ends cover, and share of the length that picks cover: widths of
     /// sections over spacings, 1 at most.
     pub fraction: BySet<f64>,
-    /// Share of the area that the two sets cover together: c₁ + c₂ - c₁ c₂.
+    /// Share of the area that the two sets cover together: c₁ + c₂ - c₁ c₂, with c₁ and c₂ the
+    /// [fractions](Cover::fraction) of warp and weft.
     pub cloth: f64,
 }
 
@@ -133,10 +136,10 @@ impl Measures {
 
     /// Measures a woven `cloth` and its `yarns`, which may be as woven or at rest. Crimp, cover and
     /// weight are measured in whole repeats, and the thickness from the lowest yarn to the highest.
-    /// A small cloth as woven is measured as if more repeats lay around it, unless its weft turns
-    /// at selvedges. It then has the same numbers as a cloth of many repeats. Values that depend on
-    /// tex are measured in repeats after which the tex of the yarns repeats, too. If the cloth has
-    /// no whole repeat, all of it is measured.
+    /// A small cloth whose yarns are as woven, and whose weft does not turn at selvedges, is
+    /// measured as if more repeats lay around it. Its numbers are then those of a cloth of many
+    /// repeats. Values that depend on tex are measured in repeats after which the tex of the yarns
+    /// repeats, too. If the cloth has no whole repeat, all of it is measured.
     ///
     /// **Errors**: [`WovenError::OtherCloth`](crate::WovenError::OtherCloth) if `yarns` are not the
     /// cloth's yarns, and the errors of [`Woven::new`] and [`Woven::yarns`], because a small cloth
@@ -193,8 +196,9 @@ impl Cover {
         let turns = |threads: &[Thread], section: usize| {
             threads.iter().any(|thread| thread.twist != 0.0 && thread.section as usize == section)
         };
-        // For each section, half its width when it lies level and, if twisted threads have it, its
-        // mean half width over all directions. A twisted thread shows one side after another.
+        // For each section, half its width when it lies level and, if twisted threads have this
+        // section, its mean half width over all directions. A twisted thread shows one side of its
+        // section after another.
         let widths: Vec<[f32; 2]> = (0..)
             .zip(cloth.sections())
             .map(|(number, section)| {
@@ -326,7 +330,7 @@ fn bezier([before, start, end, after]: &[f32; 4], s: f32) -> [f32; 4] {
     [*start, start + (end - before) * s / 3.0, end - (after - start) * s / 3.0, *end]
 }
 
-/// The tex of the materials that are used, if they all have the same.
+/// The tex of the materials that are used, if they all have the same tex.
 fn tex(length_mm: &[f64], materials: &[Material]) -> Option<f64> {
     let used = materials.iter().zip(length_mm).filter(|(_, length)| **length > 0.0);
     let mut tex = used.map(|(material, _)| material.tex.map(f64::from));

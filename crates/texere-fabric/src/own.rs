@@ -5,8 +5,8 @@ use std::ops::Range;
 use texere_contact::{part_length_mm, round_length_mm};
 use texere_core::{ControlPoint, Yarns};
 
-/// The part of a yarn that counts for the cloth. The rest of the yarn lies beyond the cloth, and
-/// depends on where a sample is cut off.
+/// The part of a yarn that counts for the cloth. The rest of the yarn lies beyond the cloth. Its
+/// length depends on where a sample is cut off.
 #[derive(Debug, Clone)]
 pub(crate) struct Own {
     /// The range of the part's control points.

@@ -1,4 +1,4 @@
-//! Reach of sections, untwisted and turned by twist.
+//! How far sections reach from the centreline, as they lie and as twist turns them.
 
 use texere_core::{Section, SectionPoint};
 
@@ -8,7 +8,7 @@ const POINTS: u32 = 1024;
 /// The relative error of sizes computed in `f32`.
 const ROUNDING: f32 = 1e-5;
 
-/// Reach of a section from the centreline, in halves of the yarn's width and height.
+/// Reach of a section from the centreline, in units of the yarn's half width and half height.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
     /// Reach to either side, untwisted.
@@ -18,7 +18,7 @@ pub(crate) struct Reach {
     /// Reach in the furthest direction. Twist turns this direction to every side.
     pub(crate) furthest: f32,
     /// The factor by which the ellipse of this width and height has to grow to hold the section. It
-    /// is 1 except for boxy sections.
+    /// is 1 unless corners of the section lie outside that ellipse.
     boxiness: f32,
 }
 
@@ -39,8 +39,8 @@ impl Reach {
         }
     }
 
-    /// Half width and half height of the room that crossing threads leave the section: an ellipse,
-    /// or the circle that a twisted section turns in.
+    /// Half width and half height of the room that crossing threads leave for the section. The room
+    /// is an ellipse or, for a twisted section, the circle in which the section turns.
     pub(crate) fn room(&self, twist: f32) -> [f32; 2] {
         if twist != 0.0 {
             return [self.furthest; 2];
@@ -49,8 +49,8 @@ impl Reach {
     }
 }
 
-/// Mean reach of a section over all directions: its hull's perimeter over a full turn (Cauchy
-/// 1832).
+/// Mean reach of a section over all directions. It is the perimeter of the section's convex hull,
+/// divided by 2π (Cauchy 1832).
 pub(crate) fn mean_reach(section: &Section) -> f32 {
     let outline = section.outline(POINTS);
     let reach = |k: u32| {

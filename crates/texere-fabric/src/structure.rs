@@ -99,8 +99,8 @@ impl Structure {
     pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
             Self::Woven(_) => repeat.placed(yarns),
-            Self::Weft(knit) => knit.placed(repeat, yarns),
-            Self::Warp(knit) => knit.placed(repeat, yarns),
+            Self::Weft(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
+            Self::Warp(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
         }
     }
 
@@ -120,8 +120,8 @@ impl Structure {
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
     /// [`WarpKnitted::settle`]). `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: the errors of the method that is called. Only woven cloth gives
-    /// [`FinishError::Woven`], if `finish` asks for a length, a press or a course.
+    /// **Errors**: the errors of the method that is called. Woven cloth also gives
+    /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -256,8 +256,8 @@ impl Structure {
         }
     }
 
-    /// How near yarns come to one another and how tightly they bend, with places in a designer's
-    /// terms: see [`Woven::clearance`](crate::Woven::clearance).
+    /// How near yarns come to one another and how tightly they bend. Places are named by thread, in
+    /// woven cloth also by crossing: see [`Woven::clearance`](crate::Woven::clearance).
     ///
     /// **Errors**: the errors of
     /// [`clearance_with_progress`](texere_contact::clearance_with_progress) and of
@@ -318,7 +318,8 @@ impl Structure {
 
     /// Faults of the fabric once it has settled to `finished`. Jams are not looked for, because
     /// threads that lack room already show it in their clearance. Contacts with a ratio below
-    /// `touching` count as piercing. [`Finished::verdict`] uses [`CLEAR`](texere_contact::CLEAR).
+    /// `touching` count as piercing. [`Finished::verdict`] uses the ratio
+    /// [`CLEAR`](texere_contact::CLEAR).
     ///
     /// **Errors**: the errors of [`Structure::clearance`].
     pub fn diagnose_finished(

@@ -9,8 +9,8 @@ use texere_core::Origin;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum FabricWarning {
-    /// Threads that lie closer to the thread before them than half the widths of both together. The
-    /// two pierce one another side by side.
+    /// Threads whose distance to the thread before them is less than half the sum of both widths.
+    /// The two threads pierce one another side by side.
     Crowded {
         /// Number of threads that lack room.
         count: usize,
@@ -18,7 +18,7 @@ pub enum FabricWarning {
         first: Origin,
         /// The worst thread: the one that lacks the largest share of its room.
         worst: Origin,
-        /// Half the widths of the worst thread and of the thread before it together, mm.
+        /// Half the sum of the widths of the worst thread and of the thread before it, mm.
         needed_mm: f64,
         /// The worst thread's distance to the thread before it, mm.
         spacing_mm: f64,

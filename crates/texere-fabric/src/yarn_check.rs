@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ThreadError {
-    /// A radius that is not a number, or outside its limits.
+    /// A radius that is not a number, or is outside its limits.
     #[error("radius of {thread} is {radius_mm} mm, outside {low} to {high} mm")]
     Radius {
         /// The thread.
@@ -19,7 +19,7 @@ pub enum ThreadError {
         /// The largest radius allowed, mm.
         high: f32,
     },
-    /// A twist that is not finite or too steep.
+    /// A twist that is not finite, or is larger than its limit.
     #[error("twist of {thread} is {twist} rad/mm, beyond ±{limit}")]
     Twist {
         /// The thread.

@@ -222,6 +222,23 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
+/// A yarn doubles back in a fold. On the way down to the fold its end comes near it at a ratio of
+/// 0.6758, and the ratio rises by no more than 0.002 from there before it falls.
+#[test]
+fn a_shallow_contact_on_the_way_to_a_fold_is_found() {
+    let points = vec![
+        [0.0, 0.0, 0.0, 0.1],
+        [0.0, -0.33831468, -0.26932493, 0.1],
+        [-0.20541026, -0.6097548, -0.40491402, 0.1],
+        [-0.47379136, -0.3197749, -0.06693044, 0.1],
+        [-0.2057943, -0.5475621, -0.2920958, 0.1],
+    ];
+    let report = clearance(&yarns(&Section::Circle, &[(false, points)]), &Settings::default()).unwrap();
+    let worst = &report.worst[0];
+    assert!((worst.ratio - 0.6758).abs() < CLEARANCE_ACCURACY, "{worst:?}");
+    assert_eq!(worst.places.map(|place| place.interval), [1, 3]);
+}
+
 /// A section beside its axis folds only if it reaches into the bend. In a counter-clockwise ring
 /// the section's side points to the middle.
 #[test]

@@ -1,17 +1,18 @@
-//! Readers and writers of texere: design files and saved yarns in, mesh files, saved yarns,
-//! designs, drafts and pictures out.
+//! Readers and writers of files. The readers read designs and saved yarns. The writers write
+//! meshes, saved yarns, designs, drafts and pictures.
 //!
 //! [`write`](mod@write) turns a mesh into a GLB or PLY file, whole or piece by piece as a device
 //! makes it. It also turns a woven design into a WIF draft or a design file, saves yarns, and draws
 //! drafts, charts and lapping diagrams.
 
-// A build that leaves formats out still compiles what formats share, and does not use all of it. A
-// build with all formats has no unused code.
+// A build without some formats still compiles the code that all formats share, and does not use all
+// of that code. A build with all formats has no unused code.
 #![cfg_attr(
     not(all(feature = "glb", feature = "knitout", feature = "ply", feature = "toml")),
     allow(dead_code, unused_variables, reason = "formats are left out that it is for")
 )]
 
+mod bcc_file;
 pub mod read;
 #[cfg(feature = "serde")]
 mod report;

@@ -9,7 +9,7 @@ use texere_fabric::{ClothClearance, FinishError, Finished};
 
 use crate::{Design, Refusal};
 
-/// The share of the progress that stretching takes. Coming to rest takes the remaining share.
+/// The share of the progress at which a stretch is done. Coming to rest takes the remaining share.
 const STRETCHED: f64 = 0.5;
 
 /// A design and its yarns, which are at rest or as placed: see [`RestReport`]. [`Design::rest`] and
@@ -83,12 +83,11 @@ impl Cloth {
         &self.report
     }
 
-    /// Measures how near the yarns come to one another, as they are drawn with `settings`, and how
-    /// tightly they bend; places are named by thread and crossing. `progress` gets the share that
-    /// is done, from 0 to 1. `Break` ends the work.
+    /// Measures how near the yarns come to one another and how tightly they bend, as they are drawn
+    /// with `settings`. Places are named by thread, and by crossing or stitch. `progress` gets the
+    /// share that is done, from 0 to 1. `Break` ends the work.
     ///
-    /// **Errors**: a [`Refusal`] where the yarns can't be measured, and where `progress` asked to
-    /// stop.
+    /// **Errors**: a [`Refusal`] if the yarns can't be measured, and if `progress` asked to stop.
     pub fn clearance(
         &self,
         settings: &Settings,
@@ -193,13 +192,13 @@ impl<'a> Resting<'a> {
     }
 
     /// Makes the cloth. The result is `Ok` even if the yarns don't come to rest: [`Cloth::report`]
-    /// then says so. Threads of woven cloth whose crossings can't settle at all stay where the
-    /// structure places them, and the report says why.
+    /// then says so. If the crossings of woven cloth can't settle at all, the threads stay where
+    /// the structure places them, and the report says why.
     ///
-    /// **Errors**: a [`Refusal`] if the design asks for cloth or a stretch that can't be made, for
-    /// a knit that can't settle, or for a finish that its structure does not have, if memory is
-    /// short, if the device fails or can't settle, if `progress` asked to stop, and for a
-    /// [tension](Resting::tension) out of range.
+    /// **Errors**: a [`Refusal`] if the cloth or its stretch can't be made, if a knit can't settle,
+    /// if the structure can't have the finish that the design asks for, if memory is short, if the
+    /// device fails or can't settle yarns, if `progress` asked to stop, and if the
+    /// [tension](Resting::tension) is out of range.
     pub fn run(self) -> Result<Cloth, Refusal> {
         let Self { mut design, device, tension, mut progress } = self;
         if !design.settle {

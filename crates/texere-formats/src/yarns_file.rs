@@ -6,15 +6,16 @@ use texere_core::Yarns;
 /// The extension of a file of yarns, without its dot.
 pub(crate) const ENDING: &str = "yarns";
 
-/// The first bytes. No text begins with the first byte. A transfer that changes line ends changes
-/// the last two.
+/// The first bytes of a file. No UTF-8 text begins with the byte 0x89, so the file is not taken for
+/// text. The last two bytes are a line end, so a transfer that changes line ends damages them and
+/// the reader notices.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89YARNS\r\n";
 
 /// The version of the format. No other version is read.
 pub(crate) const VERSION: u32 = 1;
 
-/// The largest file, bytes. It has room for half a billion control points. The limit is needed
-/// because a reader holds all of a file in memory.
+/// The largest file, bytes. It has room for half a billion control points with up directions and
+/// sources. The limit is needed because a reader holds all of a file in memory.
 pub(crate) const BYTES_MAX: u64 = 1 << 34;
 
 /// The bit of the header that says that up directions follow the control points.
@@ -69,8 +70,8 @@ pub(crate) fn flags(yarns: &Yarns) -> u32 {
     ups | sources
 }
 
-/// Bytes of a control point. Its up direction and its source are included if the header's bits
-/// announce them.
+/// Bytes of a control point. Its up direction and its source are included if `flags`, the header's
+/// bits, announce them.
 pub(crate) const fn bytes_per_point(flags: u32) -> u64 {
     let ups = if flags & HAS_UPS != 0 { UP_BYTES } else { 0 };
     let sources = if flags & HAS_SOURCES != 0 { SOURCE_BYTES } else { 0 };

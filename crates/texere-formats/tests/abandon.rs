@@ -29,9 +29,12 @@ fn what_is_abandoned_is_gone_and_nothing_is_written_after_it() {
     let names = || fs::read_dir(folder.path()).unwrap().count();
     std::thread::scope(|scope| {
         let writer = scope.spawn(|| {
-            let stopping = Pipeline::new(&yarns).progress(move |_| {
-                at_work.send(()).unwrap();
-                let _ = wait.recv();
+            let stopping = Pipeline::new(&yarns).progress(move |now| {
+                // The file is begun once control points have been sent.
+                if now.rings > 0 {
+                    at_work.send(()).unwrap();
+                    let _ = wait.recv();
+                }
                 ControlFlow::Continue(())
             });
             write::stream(stopping, &SerialBackend::new(), &path)

@@ -163,8 +163,8 @@ fn a_yarn_that_goes_too_far_names_its_line() {
     assert!(said.contains("design.k, line 7") && said.contains("yarns pass"), "{said}");
 }
 
-/// A cable of 40 loops over 40. The error names a line that knits, for a file that is the design
-/// and for a file that a design names.
+/// A cable in which 40 loops cross over 40 others. The error names a line that knits, for a file
+/// that is the design and for a file that a design names.
 #[test]
 fn a_knitout_file_that_is_too_crowded_to_settle_names_its_line() {
     let row = |way: char| {

@@ -177,6 +177,7 @@ impl Renderer {
         settings: &Settings,
         watch: &mut Watch<'_>,
     ) -> Result<Scene, RenderError> {
+        watch.tell(0.0)?;
         let (points, extent) = (yarns.points(), Extent::of(yarns));
         self.scene_of(yarns, settings, extent, watch, |session, watch| {
             let mut first = 0;
@@ -228,8 +229,14 @@ impl Renderer {
         rayon::in_place_scope(|scope| {
             scope.spawn(|_| chunks = kept_chunks(&plan, &limits));
             send(&mut session, watch)?;
-            Ok::<_, RenderError>(session.scan()?)
+            let mut asked = Ok(());
+            let _ = session.scan_watched(&mut || {
+                asked = watch.ask();
+                if asked.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            })?;
+            asked
         })?;
+        watch.ask()?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
         let view = buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?;
         Ok(Scene {

@@ -71,7 +71,7 @@ impl Screen {
         let textures = device.scoped("Device::create_texture", || {
             [
                 texture("depths", large, SAMPLES, TextureFormat::R32Float, copied),
-                texture("directions", large, SAMPLES, TextureFormat::Rg32Uint, read),
+                texture("directions", large, SAMPLES, TextureFormat::Rg32Uint, copied),
                 texture("places", large, SAMPLES, TextureFormat::Rg32Uint, copied),
                 texture("visibility", large, 1, TextureFormat::Rgba8Unorm, read),
                 texture("lit samples", large, 1, TextureFormat::Rgba32Uint, read),

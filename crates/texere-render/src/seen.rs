@@ -17,13 +17,13 @@ pub struct Seen {
 }
 
 /// The bytes of a sample's place on the yarn.
-const PLACE_BYTES: u64 = 8;
+pub(crate) const PLACE_BYTES: u64 = 8;
 
 /// The bytes of a sample's depth.
-const DEPTH_BYTES: u64 = 4;
+pub(crate) const DEPTH_BYTES: u64 = 4;
 
 /// `MARKS` of `view.wgsl`.
-const MARKS: u32 = 0xc000_0000;
+pub(crate) const MARKS: u32 = 0xc000_0000;
 
 impl Scene {
     /// What the last picture shows at a point, in pixels from its left and upper edges. None if it

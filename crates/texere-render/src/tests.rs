@@ -4,6 +4,7 @@
 
 mod hairs;
 mod kept;
+mod layers;
 mod mesh_path;
 mod scenes;
 mod spectrum;

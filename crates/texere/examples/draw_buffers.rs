@@ -1,4 +1,4 @@
-//! Draws cloth with a render pipeline of the program, from the buffers that texere wrote:
+//! Draws cloth with a render pipeline of the program's own, from the buffers that texere wrote:
 //! `cargo run --example draw_buffers --features wgpu,pictures`.
 
 use std::sync::Arc;
@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A pipeline that takes texere's vertices.
+/// A render pipeline whose vertices are texere's.
 fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let source = wgpu::ShaderSource::Wgsl(SHADER.into());
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });

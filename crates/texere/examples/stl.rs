@@ -1,4 +1,5 @@
-//! Writes a format that texere does not have, piece by piece: `cargo run --example stl`.
+//! Writes an STL file, a format that texere does not have, piece by piece:
+//! `cargo run --example stl`.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -10,7 +11,7 @@ use texere::mesh::MeshPiece;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let design = texere::read("designs/herringbone.wif")?;
     let yarns = design.yarns()?;
-    let pipeline = Pipeline::new(&yarns).caps(true); // closed, as a printer wants it
+    let pipeline = Pipeline::new(&yarns).caps(true); // closed tubes, which 3D printers need
     let triangles = pipeline.plan()?.counts().triangles;
     let mut file = BufWriter::new(File::create(std::env::temp_dir().join("herringbone.stl"))?);
     file.write_all(&[0; 80])?;
@@ -25,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
             MeshPiece::Indices { indices, .. } => {
                 for corners in indices.chunks_exact(3) {
-                    // A normal of zero asks readers to work it out.
+                    // A normal of zero tells readers of STL to compute it.
                     let mut facet = [0; 50];
                     let at = corners.iter().flat_map(|corner| places[*corner as usize]);
                     for (bytes, value) in facet[12..48].chunks_exact_mut(4).zip(at) {

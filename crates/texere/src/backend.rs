@@ -1,8 +1,8 @@
-//! What a backend is written with, and what drives a backend chunk by chunk.
+//! The items that a backend implements and uses, and those that drive a backend chunk by chunk.
 //!
-//! [docs/BACKENDS.md](https://github.com/texere/texere/blob/main/docs/BACKENDS.md) writes a backend
-//! step by step. The rest of the names that a backend needs are in [`mesh`](crate::mesh)
-//! ([`Limits`](crate::mesh::Limits), [`MeshPiece`](crate::mesh::MeshPiece),
+//! [docs/BACKENDS.md](https://github.com/texere/texere/blob/main/docs/BACKENDS.md) describes step by
+//! step how to write a backend. The rest of the names that a backend needs are in
+//! [`mesh`](crate::mesh) ([`Limits`](crate::mesh::Limits), [`MeshPiece`](crate::mesh::MeshPiece),
 //! [`Attribute`](crate::mesh::Attribute), [`PackedVertex`](crate::mesh::PackedVertex)) and at the
 //! root ([`Backend`](crate::Backend), [`BackendError`](crate::BackendError),
 //! [`DeviceInfo`](crate::DeviceInfo)).
@@ -11,13 +11,13 @@
 //! Yarns ──> Plan ──> Session ──> Engine, chunk by chunk ──> MeshMut
 //! ```
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | write a backend | [`Backend`](crate::Backend), [`Engine`], [`NullBackend`] as the smallest example |
 //! | read the tables of every yarn, block and chunk | [`Plan`], [`Block`], [`Chunk`] |
 //! | compute splines, frames and sections as all backends do | [`definitions`] |
 //! | settle on a device | [`settling`], [`crossings`] |
-//! | run a plan, its results in memory of the program's own | [`Run`] |
+//! | run a plan, with its results in the program's own memory | [`Run`] |
 //! | drive a backend chunk by chunk | [`Session`], [`Slot`], [`StageTimings`] |
 //! | keep a mesh on a device, and edit it without a structure | [`LiveMesh`], [`Edits`] |
 //!

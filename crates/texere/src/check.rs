@@ -1,13 +1,13 @@
-//! Faults of a cloth, and the measures that a designer takes of it.
+//! Faults and measures of a cloth.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | know what is wrong with a structure, and which single change would cure it | [`Diagnosis`], [`Faults`], [`Cure`] |
 //! | know whether yarns pierce one another, and where | [`clearance()`], which gives a [`Clearance`]; [`ClothClearance`] names threads |
-//! | know whether yarns have passed through one another when they were moved | [`linking()`], which gives a [`Linking`] |
+//! | know whether yarns that were moved passed through one another | [`linking()`], which gives a [`Linking`] |
 //! | know whether a mesh's tubes are wrung (narrowed, because neighbouring rings are turned against one another), and how many subdivisions cure that | [`drawn()`], [`finer`] |
 //! | know weight, thickness, yarn consumption, cover and crimp of woven cloth, loops of a knit | [`Measures`], [`KnitMeasures`] |
-//! | have all of that in one report for people, or as JSON | `InspectReport`, `CheckReport` (feature `serde`) |
+//! | make one report of all of that, for people or as JSON | `InspectReport`, `CheckReport` (feature `serde`) |
 //!
 //! ```
 //! use texere::check::clearance;

@@ -1,4 +1,4 @@
-//! Devices by name.
+//! Finding devices, and opening them by name.
 
 use texere_core::backend::Schedule;
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind};
@@ -31,7 +31,8 @@ const FAMILIES: &[Family] = &[
 /// Families that a build may leave out. The feature that adds a family has the name of the family.
 const FEATURES: [&str; 2] = ["wgpu", "opencl"];
 
-/// The end of a name that asks for the paper's schedule, one lane for each yarn.
+/// The end of a name that asks for the schedule of the paper in README.md: one thread of the device
+/// for each yarn.
 const PER_YARN: &str = "/per-yarn";
 
 /// The devices of this machine, and the families without one.
@@ -93,10 +94,10 @@ pub fn devices() -> Devices {
 /// | name | device |
 /// |---|---|
 /// | `auto` | a discrete GPU, else an integrated one, else the CPU, as [`Devices::auto`] says. A GPU that does not open is skipped |
-/// | `cpu` | all cores, with the vectors that the environment variable `TEXERE_SIMD` names, if it is set |
-/// | `cpu-serial` | the serial reference |
-/// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `wgpu`) |
-/// | `opencl`, `opencl:1`, `opencl:nvidia` | the first, the second, the first whose name holds "nvidia" (feature `opencl`) |
+/// | `cpu` | all cores; the environment variable `TEXERE_SIMD` may name the vector instructions to use |
+/// | `cpu-serial` | one core: the reference to which other devices are compared |
+/// | `wgpu`, `wgpu:1`, `wgpu:nvidia` | the first device of `wgpu`, the second, the first whose name contains "nvidia" (feature `wgpu`) |
+/// | `opencl`, `opencl:1`, `opencl:nvidia` | the first device of OpenCL, the second, the first whose name contains "nvidia" (feature `opencl`) |
 /// | `opencl:0/per-yarn` | the first device of OpenCL, with the paper's mapping of one thread to each yarn; `wgpu` devices have it, too |
 ///
 /// ```
@@ -108,7 +109,7 @@ pub fn devices() -> Devices {
 ///
 /// **Errors**: [`BackendError::NoDevice`], which lists the names that would have worked;
 /// [`BackendError::NoFeature`] for a family that this build lacks;
-/// [`BackendError::NoInstructionSet`] for a `TEXERE_SIMD` that names no vectors of this processor;
+/// [`BackendError::NoInstructionSet`] if this processor lacks what `TEXERE_SIMD` names;
 /// and [`BackendError::Driver`], [`BackendError::Compile`], [`BackendError::Unsupported`] or
 /// [`BackendError::DeviceLost`] for a device that can't be opened.
 pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {

@@ -1,13 +1,13 @@
-//! Devices of OpenCL and `wgpu`, and meshes that a program draws itself (features `opencl`,
+//! Devices of OpenCL and `wgpu`, and meshes on them that a program draws itself (features `opencl`,
 //! `wgpu`).
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | make meshes on a program's own device | `WgpuBackend::from_device` |
 //! | draw a mesh that lies on the device | `draw`, with `VERTEX_LAYOUT`, `PACKED_LAYOUT`, `ATTRIBUTE_LAYOUT` for the pipeline |
 //! | unpack vertices of 12 bytes in a shader | `UNPACK` |
-//! | have the buffers of a mesh | `OpenClSession`, `WgpuSession`, `DeviceMesh` |
-//! | have the tables that shaders make a chunk from | `ChunkTables` |
+//! | use the buffers of a mesh | `OpenClSession`, `WgpuSession`, `DeviceMesh` |
+//! | use the tables from which shaders make a chunk | `ChunkTables` |
 
 #[cfg(feature = "opencl")]
 pub use texere_opencl::{DeviceMesh, OpenClBackend, OpenClEngine, OpenClSession};

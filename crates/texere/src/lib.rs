@@ -53,25 +53,25 @@
 //! [`Design::settle`] is set to true. [`run`](rest::Resting::run) is `Ok` even if yarns don't come
 //! to rest: [`Cloth::report`] then says so.
 //!
-//! # What to take
+//! # What to use
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | read a design from a file, or from memory with the files that it names | [`read()`], [`read_from`] |
 //! | make a design in code | [`woven`], [`weft`], [`warp`], [`Design::of`] |
 //! | build yarns of any other origin | [`Yarns::builder`], [`Yarns::placed`], [`Yarns::merged`]; [`yarn`] |
 //! | let cloth come to rest | [`Design::rest`]; [`rest`] |
-//! | have a whole mesh in memory, write it | [`Pipeline::mesh`], [`write()`] |
+//! | make a whole mesh in memory, and write it | [`Pipeline::mesh`], [`write()`] |
 //! | save yarns, such as cloth at rest, and read them again without settling | [`write::yarns`], [`read::yarns`] |
 //! | write a mesh larger than memory, or a format of your own | [`write::stream`], [`Pipeline::stream`] |
-//! | have a mesh of only what lies in a rectangle | [`Pipeline::within`] |
+//! | make a mesh of only the part of the cloth in a rectangle | [`Pipeline::within`] |
 //! | edit a cloth and keep its mesh on a device | [`Live`] |
 //! | draw with a pipeline of your own, on your own device | [`Live`]; `gpu` (feature `wgpu`) |
-//! | know what lies under the mouse | [`Live::pick`] or [`Picker`]; its name in a weaver's words: [`YarnPlace::at`], then [`Design::named`] |
-//! | have vertices in half the memory, 12 bytes each | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
+//! | know which yarn lies under the mouse | [`Live::pick`] or [`Picker`]; for the place in a weaver's words [`YarnPlace::at`], then [`Design::named`] |
+//! | make vertices of 12 bytes, half the usual size | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `picture` (feature `render`) |
-//! | know how many rings twist needs | [`Settings::of`], [`Pipeline::undersampled`] |
+//! | know how many rings the twist of yarns needs | [`Settings::of`], [`Pipeline::undersampled`] |
 //! | know what is wrong with a cloth | [`check`] |
 //! | write a backend | [`mod@backend`] |
 //!
@@ -79,20 +79,21 @@
 //! [`Session::packed`]: backend::Session::packed
 //! [`Quantum`]: mesh::Quantum
 //!
-//! # Rooms
+//! # Modules
 //!
-//! The root has what every program needs. The rest is in modules, and each name is in one of them.
+//! The root of the crate has what every program needs. All other names are in modules, each in one.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`mod@read`], [`mod@write`] | what readers say beside the design; files of meshes, yarns, pictures, drafts and designs |
+//! | [`mod@read`] | saved yarns, and what readers report beside the design |
+//! | [`mod@write`] | files of meshes, yarns, pictures, drafts and designs |
 //! | [`woven`], [`weft`], [`warp`] | weaves, weft knits and warp knits in code |
 //! | [`yarn`] | materials, sections, sizes, lengths |
 //! | [`rest`] | finishing and settling |
 //! | [`check`] | faults and measures |
-//! | [`mesh`] | choices of a mesh, its pieces, its edits, rays |
+//! | [`mesh`] | settings of a mesh, its pieces, its edits, rays |
 //! | `picture` | rendering (feature `render`) |
-//! | [`mod@backend`] | what a backend is written with |
+//! | [`mod@backend`] | what a backend implements and uses |
 //! | `gpu` | devices and buffers of OpenCL and `wgpu` (features `opencl`, `wgpu`) |
 //!
 //! # Features
@@ -109,8 +110,8 @@
 //! | `images` | point paper in design files |
 //! | `serde` | reports of a cloth, which serialize |
 //!
-//! `toml`, `glb` and `ply` are there unless `default-features = false`. A file whose format the
-//! build leaves out is refused by name: [`ReadError::Feature`], [`WriteError::Feature`].
+//! `toml`, `glb` and `ply` are default features. If a build leaves out the format of a file, the
+//! error names the missing feature: [`ReadError::Feature`], [`WriteError::Feature`].
 //!
 //! # Threads
 //!
@@ -141,8 +142,8 @@
 //! Lengths are in mm, angles in radians, twist in rad/mm
 //! ([`twist_from_turns_per_m`](yarn::twist_from_turns_per_m)). x runs along the weft or course, y
 //! along the warp or wale, z out of the technical face; right-handed. Triangles are
-//! counter-clockwise seen from outside. Yarns, control points, ends and picks are counted from 0 in
-//! calls, and from 1 in texts for weavers.
+//! counter-clockwise as seen from outside. Yarns, control points, ends and picks are counted from 0
+//! in calls, and from 1 in texts for weavers.
 //!
 //! - *Control point*: a place of a yarn's centreline with its half width and half height.
 //!   *Interval* j of the spline runs from point j to the next.

@@ -4,6 +4,7 @@ mod edits;
 mod error;
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -14,7 +15,7 @@ use texere_fabric::{Loom, Structure, Woven};
 
 pub use self::error::LiveError;
 
-/// A fabric that is being edited, and its whole mesh on a device.
+/// A fabric that is being edited, with its whole mesh on a device.
 ///
 /// Lifts, yarns, control points and colours change one by one. [`Live::update`] makes again only
 /// what has changed. The mesh is then equal to that of the edited fabric made from scratch. To undo
@@ -24,8 +25,8 @@ pub use self::error::LiveError;
 /// come to rest in the meantime. A thread whose lift is set later lies as it is woven, among the
 /// yarns at rest.
 ///
-/// The first update makes the whole mesh. After an update that is [`anew`](Update::anew), ask for
-/// the mesh's buffers again.
+/// The first update makes the whole mesh. After it, and after any other update that is
+/// [`anew`](Update::anew), ask for the mesh's buffers.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -37,7 +38,7 @@ pub use self::error::LiveError;
 /// let twill = Weave::parse("2/2")?.drawdown(40, 30)?;
 /// let cloth = Woven::new(twill, warp, weft, vec![Material::default()], vec![Section::Circle])?;
 /// let mut live = Live::weave(Arc::from(texere::open("cpu")?), cloth, Settings::default())?;
-/// live.update()?; // the whole mesh
+/// assert!(live.update()?.anew); // the whole mesh
 ///
 /// let up = live.woven().is_some_and(|cloth| cloth.drawdown().up(7, 3));
 /// live.set_lift(7, 3, !up)?;
@@ -57,7 +58,7 @@ pub struct Live {
     set: BTreeMap<usize, SetYarn>,
     materials: Vec<Material>,
     mesh: LiveMesh,
-    /// Whether a new mesh was begun since the last update.
+    /// Whether the mesh was begun since the last update.
     anew: bool,
     /// The picker. It is made for the first ray, and dropped when a new mesh is begun.
     picker: Option<Picker>,
@@ -89,8 +90,8 @@ enum Source {
 pub struct Update {
     /// The vertices and indices that were made again, chunk by chunk.
     pub changes: Vec<Change>,
-    /// Whether the mesh was begun again, in other buffers and with other chunks: a yarn had
-    /// outgrown its room, for example.
+    /// Whether the mesh was begun, in other buffers and with other chunks: in the first update, and
+    /// after a yarn has outgrown its room, for example.
     pub anew: bool,
 }
 
@@ -137,7 +138,7 @@ impl Live {
         source: Source,
     ) -> Self {
         let set = BTreeMap::new();
-        Self { device, settings, source, set, materials, mesh, anew: false, picker: None }
+        Self { device, settings, source, set, materials, mesh, anew: true, picker: None }
     }
 
     /// The cloth as it is now, if the fabric is woven. Yarns that were [set](Live::set_yarn) have
@@ -181,7 +182,25 @@ impl Live {
     /// same parts again.
     pub fn update(&mut self) -> Result<Update, LiveError> {
         let changes = self.mesh.update()?;
-        Ok(Update { changes, anew: std::mem::take(&mut self.anew) })
+        Ok(self.updated(changes))
+    }
+
+    /// [`Live::update`], which ends early if `watch` answers `Break`, and returns that answer. The
+    /// next update then makes the same parts. `watch` is called several times in each 50 ms.
+    ///
+    /// **Errors**: the errors of [`Live::update`].
+    pub fn update_watched(
+        &mut self,
+        watch: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<ControlFlow<(), Update>, LiveError> {
+        Ok(match self.mesh.update_watched(watch)? {
+            ControlFlow::Continue(changes) => ControlFlow::Continue(self.updated(changes)),
+            ControlFlow::Break(()) => ControlFlow::Break(()),
+        })
+    }
+
+    fn updated(&mut self, changes: Vec<Change>) -> Update {
+        Update { changes, anew: std::mem::take(&mut self.anew) }
     }
 
     /// Makes an [`Attribute`](crate::mesh::Attribute) for each vertex from the next update on, for

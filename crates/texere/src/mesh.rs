@@ -1,16 +1,16 @@
-//! Choices of a mesh, its pieces, its vertices, its edits, and rays to pick with.
+//! Settings of a mesh, its pieces, its vertices, its edits, and rays to pick yarns with.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | choose how rings turn, and how triangles are indexed | [`Frame`], [`Topology`] |
 //! | bound the memory that a device takes | [`Limits`] |
 //! | know how many vertices and triangles there will be | [`Counts`] |
-//! | have a mesh of only what lies in a rectangle | [`Bounds`] |
+//! | make a mesh of only the part of the cloth in a rectangle | [`Bounds`] |
 //! | read a mesh piece by piece | [`MeshPiece`], [`Progress`] |
-//! | have vertices of 12 bytes | [`PackedVertex`], [`Quantum`] |
+//! | make vertices of 12 bytes | [`PackedVertex`], [`Quantum`] |
 //! | know where on its yarn a vertex lies | [`Attribute`], [`ArcLength`] |
 //! | know what an edit changed | [`Update`], [`Change`] |
-//! | pick with a ray | [`Ray`], [`MeshPlace`] |
+//! | know what a ray hits | [`Ray`], [`MeshPlace`] |
 //!
 //! ```
 //! use texere::mesh::{Frame, Topology};

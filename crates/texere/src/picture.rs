@@ -1,19 +1,20 @@
 //! Pictures of cloth, lit and shaded on a device of `wgpu` (feature `render`).
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | open a device that renders | [`open_renderer`], which gives a [`Renderer`] |
-//! | put cloth on it | [`Renderer::scene`], which gives a [`Scene`] |
-//! | look at it | [`Camera`], [`Pose`], [`Extent`], [`Cut`] |
-//! | have a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
-//! | choose how good it is, and what lies behind it | [`Quality`], [`Background`] |
+//! | send cloth to it | [`Renderer::scene`], which gives a [`Scene`] |
+//! | choose the view | [`Camera`], [`Pose`], [`Extent`], [`Cut`] |
+//! | make a picture in memory | [`Scene::picture`], which gives a [`Picture`] |
+//! | choose the quality, and the background | [`Quality`], [`Background`] |
 //! | know which yarn a pixel shows | [`Scene::seen_at`], which gives a [`Seen`] |
+//! | have depths, normals and yarns of all pixels | [`Scene::layers`], which gives [`Layers`] |
 //!
 //! [`open_renderer`] has an example.
 
 pub use texere_render::{
-    Background, Camera, Cut, DevicePicture, Extent, Picture, PictureTimings, Pose, Quality, RenderError,
-    Renderer, Scene, Seen, picture_sides,
+    Background, Camera, Cut, DevicePicture, Extent, Layers, Picture, PictureTimings, Pose, Quality,
+    RenderError, Renderer, Scene, Seen, picture_sides,
 };
 
 pub use crate::device::{open_renderer, picture_device};

@@ -1,5 +1,5 @@
-//! Readers of saved yarns, and what readers report: where a file is wrong, and what a place in a
-//! cloth is called.
+//! Readers of saved yarns and of curves, and what readers report: the place of an error in a file,
+//! and the names of places in a cloth.
 //!
 //! [`texere::read`](fn@crate::read) reads a design's file and the files that it names;
 //! [`read_from`](crate::read_from) takes them from memory.
@@ -9,13 +9,16 @@
 //! [`run`](crate::rest::Resting::run) is `Ok` even if yarns don't come to rest:
 //! [`Cloth::report`](crate::Cloth::report) then says so.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | read yarns that were saved, without settling them again | [`yarns`], [`yarns_from`], which give [`SavedYarns`] |
-//! | know file, line and field of an error | [`FilePlace`] |
+//! | read curves that another program wrote, as round yarns | [`curves`], [`curves_from`], with a [`CurveScale`] |
+//! | know file, line and field of an error | [`FilePlace`]; of an error of any type [`fault_place`], which gives a [`FaultPlace`] |
 //! | know why a whole design is refused | [`Refusal`] |
 //! | know which steps a knitting machine could not do | [`MachineFault`] |
 //! | say in words where a yarn was picked | [`Design::named`](crate::Design::named), which gives a [`NamedPlace`] |
 
-pub use texere_formats::read::{SavedYarns, yarns, yarns_from};
+pub use texere_formats::read::{
+    CurveScale, FaultPlace, SavedYarns, curves, curves_from, fault_place, yarns, yarns_from,
+};
 pub use texere_formats::{FilePlace, MachineFault, NamedPlace, ProgramPlace, Refusal};

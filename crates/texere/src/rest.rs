@@ -3,7 +3,7 @@
 //! [`Design::rest`](crate::Design::rest) lets the yarns of a design come to rest as its [`Finish`]
 //! says. The [`RestReport`] of the cloth says whether they did.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Length`], [`Press`] |
 //! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |

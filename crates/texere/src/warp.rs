@@ -1,11 +1,11 @@
 //! Warp knits in code: guide bars and their lappings.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | write a bar's movement in the usual notation, by name or lap by lap | [`Chain`], [`LAPPINGS`], [`Lap`] |
 //! | say which guides hold which yarn, and how much each runs in | [`Bar`], [`Threading`], [`RunIn`] |
 //! | displace single guides of a Jacquard bar | [`Displacements`] |
-//! | have a cloth | [`WarpKnitted`], with a [`Gauge`](crate::weft::Gauge) and [yarns](crate::weft::KnitYarn) |
+//! | make a cloth | [`WarpKnitted`], with a [`Gauge`](crate::weft::Gauge) and [yarns](crate::weft::KnitYarn) |
 //!
 //! ```
 //! use texere::warp::{Bar, Chain, WarpKnitted};

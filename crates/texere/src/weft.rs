@@ -1,12 +1,12 @@
 //! Weft knits in code: charts of stitches, and programs of knitting machines.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | write stitches in symbols, or make them one by one | [`Chart`], [`Cell`] |
 //! | say what a machine does, needle by needle | [`Program`], [`Instruction`] |
-//! | run a program on a knitting machine, and know its faults | [`Machine`], [`Knit`], [`Fault`] |
+//! | run a program on a simulated knitting machine, and know its faults | [`Machine`], [`Knit`], [`Fault`] |
 //! | know which loop is drawn through which | [`Stitches`] |
-//! | have a cloth | [`Knitted`], with a [`Gauge`] and a [`KnitYarn`] for each carrier |
+//! | make a cloth | [`Knitted`], with a [`Gauge`] and a [`KnitYarn`] for each carrier |
 //!
 //! ```
 //! use texere::weft::{Beds, Chart, Gauge, KnitYarn, Knitted, Machine};

@@ -1,15 +1,15 @@
 //! Woven cloth in code: drafts, weaves, threads and setts.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | write a weave in its usual notation | [`Weave`] |
 //! | thread a loom | [`Draft`], [`Shedding`] |
 //! | say which thread lies on top at each crossing | [`Drawdown`] |
-//! | say what threads are like, and how close they lie | [`Thread`], [`Pitch`] |
-//! | have a cloth | [`Woven`]; [`WovenDesign`] adds how it comes to rest |
-//! | read what warp and weft each have | [`BySet`], [`Set`] |
+//! | say which yarn each thread is, and how close threads lie | [`Thread`], [`Pitch`] |
+//! | make a cloth | [`Woven`]; [`WovenDesign`] adds how it comes to rest |
+//! | have a value for the warp and one for the weft | [`BySet`], [`Set`] |
 //! | know whether threads have room | [`JamReport`], [`Sett`], [`Relief`], [`Tightness`] |
-//! | place single ends and picks anew | [`Loom`] |
+//! | place single ends and picks again after an edit | [`Loom`] |
 //!
 //! ```
 //! use texere::woven::{Thread, Weave, Woven};

@@ -4,11 +4,12 @@
 //! [`file()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
 //! the caller's.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
-//! | write a mesh larger than memory | [`stream`], [`stream_to`] |
+//! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
+//! | write centrelines for a simulator or a renderer | [`curves`], [`curves_to`] |
 //! | write a design that is read again | `wif`, `toml` (features of these names) |
 //! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
 //! | write a picture | `picture` (feature `pictures`) |
@@ -29,7 +30,8 @@
 //! ```
 
 pub use texere_formats::write::{
-    Format, Output, Written, abandon, file, mesh_to, repeat, repeat_to, stream, stream_to, yarns, yarns_to,
+    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, mesh_to, repeat, repeat_to, run,
+    run_to, stream, stream_to, yarns, yarns_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{

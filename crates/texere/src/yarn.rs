@@ -1,6 +1,6 @@
-//! Yarns: material, section, thickness, how they end, and how long they are.
+//! Yarns: their materials, sections, thicknesses, ends and lengths.
 //!
-//! | to | take |
+//! | to | use |
 //! |---|---|
 //! | build yarns of any origin | [`Yarns::builder`](crate::Yarns::builder), which gives a [`YarnsBuilder`] |
 //! | say what a yarn is made of, and what its section is | [`Material`], [`Section`] |
@@ -30,6 +30,6 @@ pub use texere_core::{
     YarnPlace, YarnsBuilder,
 };
 pub use texere_fabric::{
-    diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count,
-    turns_per_m, twist_from_turns_per_m,
+    COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
+    tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
 };

@@ -104,7 +104,8 @@ fn sinks(design: &Design) {
     }
 }
 
-/// The most control points of a cloth that settles, and the passes of either form that it gets.
+/// The most control points of a cloth that settles, and the most passes of each form of settling,
+/// weighted and block, that it gets.
 const SETTLING_POINTS: usize = 300;
 const PASSES: u32 = 3;
 
@@ -143,7 +144,8 @@ fn finished(design: &Design, outcome: Outcome) -> Outcome {
     outcome
 }
 
-/// The cloth of the design. It is stopped if stretching takes too long.
+/// The cloth of the design at rest. The work is stopped if stretching takes more than
+/// [`STRETCHING`] passes.
 fn rested(design: Design) -> Result<Cloth, Refusal> {
     let backend = ParallelBackend::open().expect("the CPU's backend");
     let (is_stretched, mut passes) = (design.stretch.is_some(), 0..STRETCHING);

@@ -103,7 +103,7 @@ fn palette(width: u32, height: u32, random: &mut Rng) -> Vec<u8> {
     bytes
 }
 
-/// Sets one field of two or four bytes, in either order, to one of [`FIELDS`].
+/// Sets a field of two or four bytes to one of [`FIELDS`], in either byte order.
 pub(crate) fn field(bytes: &mut [u8], random: &mut Rng) {
     let value = FIELDS[random.usize(..FIELDS.len())];
     let wide = if random.bool() { 4 } else { 2 };

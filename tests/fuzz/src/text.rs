@@ -112,7 +112,8 @@ const WORDS: &[&str] = &[
 ];
 
 /// Applies up to five mutations to the lines of one of `seeds`. Some mutations take parts of
-/// another seed. In a few of 256 cases the bytes are scrambled, or the text is encoded as UTF-16.
+/// another seed. In 8 of 256 cases the bytes are then scrambled, and in 4 the text is encoded as
+/// UTF-16.
 pub(crate) fn mutated(seeds: &[&str], random: &mut Rng) -> Vec<u8> {
     let seed = |random: &mut Rng| random.choice(seeds).copied().unwrap_or_default();
     let mut lines: Vec<String> = seed(random).lines().map(Into::into).collect();

@@ -14,14 +14,14 @@ use crate::{Input, Outcome, Reader, drive};
 /// are caught.
 const LIMIT: Duration = Duration::from_secs(20);
 
-/// The most memory of the whole program with an input, MiB.
+/// The most memory that the whole program may take while it handles an input, MiB.
 const MEMORY_MIB: f32 = 1024.0;
 
 /// Runs the inputs with these numbers. Returns the number of inputs that were accepted and passed
 /// through every step.
 ///
-/// `heap` counts the program's memory. The files of an input that fails are kept in `kept`, a
-/// folder.
+/// `heap` counts the program's memory. The files of an input that fails are kept in the folder
+/// `kept`.
 ///
 /// # Panics
 ///

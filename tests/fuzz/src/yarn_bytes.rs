@@ -7,7 +7,8 @@ use texere_formats::write;
 use crate::image_bytes::field;
 use crate::text::scrambled;
 
-/// Place of the length in a file, and number of bytes of the checksum at its end.
+/// The first byte of the field that holds a file's length, and the number of bytes of the checksum
+/// at the file's end.
 const LENGTH_AT: usize = 16;
 const CHECKSUM: usize = 4;
 

@@ -1,4 +1,5 @@
-//! Joins chunks into a whole output: every ring once, in order, for any chunks.
+//! Joins the chunks of an output into a whole, which has every ring once, in order, however the
+//! chunks were cut.
 
 use std::ops::Range;
 

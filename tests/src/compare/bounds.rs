@@ -7,8 +7,8 @@ pub const POSITION: f64 = 1e-4;
 /// control points. Far from the origin, f32 has no finer digits.
 pub const COORDINATE_ULPS: f64 = 4.0;
 
-/// Angle by which a unit vector may be off its direction, rad; and share by which a radius may be
-/// off its length.
+/// Angle by which a unit vector may be off its direction, rad. A radius may be off its length by
+/// the same number as a share.
 pub const DIRECTION: f64 = 1e-4;
 
 /// Drift of the roll that is allowed for each ring, and for each radian of twist, from the yarn's

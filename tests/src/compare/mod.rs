@@ -313,7 +313,8 @@ fn same_triangles(old: &AssembledCap, new: &AssembledCap) -> bool {
     new.triangles.is_empty() || old.triangles == new.triangles
 }
 
-/// Checks that a closed yarn's last ring equals its first to the bit, and so do their vertices.
+/// Checks that the first and the last ring of each closed yarn are equal to the bit, and that their
+/// vertices are.
 pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;
     for yarn in (0..oracle.yarns.len()).filter(|&yarn| oracle.yarns[yarn].closed) {
@@ -334,8 +335,8 @@ pub fn compare_closed_ends(oracle: &Oracle, output: &Assembled, report: &mut Rep
     }
 }
 
-/// Compares two outputs that have to be equal to the bit: of other chunks, of another way through
-/// the session, or of a backend that promises equal bits.
+/// Compares two outputs that have to be equal to the bit: `actual` was made in other chunks, by
+/// another way through the session, or by a backend that promises equal bits.
 pub fn compare_bits(oracle: &Oracle, expected: &Assembled, actual: &Assembled, report: &mut Report) {
     let sides = oracle.settings.sides as usize;
     for yarn in 0..oracle.yarns.len() {

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-/// Places, sorted into cells in x and y. Cloth is thin, so that cells reach through it.
+/// Places, sorted into cells in x and y. Cloth is thin, so a cell holds its places at every height
+/// z.
 pub(super) struct Cells {
     /// The number of cells in a repeat along each axis; 0 if nothing repeats along it.
     count: [i64; 2],
@@ -16,7 +17,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// A grid for places that are near one another: up to a distance of `reach`, mm.
+    /// A grid that finds places which are at most `reach` mm apart.
     pub(super) fn new(places: &[DVec3], repeat: [f64; 2], reach: f64) -> Self {
         let count = repeat.map(|repeat| if repeat > 0.0 { ((repeat / reach) as i64).max(1) } else { 0 });
         let size = [0, 1].map(|axis| if count[axis] > 0 { repeat[axis] / count[axis] as f64 } else { reach });

@@ -1,8 +1,9 @@
 //! Finds passages of yarns through one another, by Gauss's linking integral of windows of yarn
 //! before and after settling.
 //!
-//! Windows are shorter than loops. When a head is pulled out of the loop above it, one leg may gain
-//! what another leg loses, so that the integral of a whole loop would not change.
+//! Windows are shorter than loops. When a head is pulled out of the loop above it, the integral may
+//! grow at one leg by as much as it falls at the other leg, so that the integral of a whole loop
+//! would not change.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;

@@ -125,7 +125,8 @@ fn loop_points(
     let (forward, tilt) = if last == 0 { (0.9, 0.0) } else { (1.0, 0.3) };
     let layer = 0.7 * front_most;
     let behind = if last == 0 { 2.2 } else { 2.0 + 1.8 * (last - bar) as f64 };
-    // Loops of bars that lap alike would lie in one another.
+    // If both bars lap alike, their loops are set side by side. Otherwise they would lie in one
+    // another.
     let beside = if last > 0 && bars.iter().all(|other| *other == bars[0]) { front_most } else { 0.0 };
 
     let side = f64::from(to - from);

@@ -50,8 +50,8 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
                 let (points, end) = (&stretch.points, stretch.points.len());
                 let legs = [&points[PARTS / 2..=stretch.head], &points[stretch.head..end - PARTS / 2]];
                 let through = legs.map(|leg| span.through(leg));
-                // The head of a parent may lie in front of the surface or behind it, depending on
-                // how the surface is drawn.
+                // If loop `number` is drawn through loop `other`, the head of `other` may lie in
+                // front of the surface or behind it, depending on how the surface is drawn.
                 let child = stitches.parents_of(number).iter().any(|above| above.number == other);
                 let sound = if parent {
                     through[0].abs() == 1 && through[1] == -through[0]

@@ -11,8 +11,8 @@ const DRIVER_FOLDERS: [&str; 3] =
 /// Debian's packages for drawing on a CPU: a Vulkan loader and lavapipe.
 pub(crate) const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
 
-/// Installs lavapipe if there is no Vulkan driver, or prints the packages to install if it may not.
-/// Metal and Direct3D 12 come with their systems.
+/// Installs lavapipe if there is no Vulkan driver. If the user may not install packages, prints
+/// their names instead. Metal and Direct3D 12 come with their systems.
 pub(crate) fn install(steps: &mut Steps) {
     if !cfg!(target_os = "linux") || has_driver() {
         return;

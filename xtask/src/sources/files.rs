@@ -25,7 +25,7 @@ impl Source {
     }
 }
 
-/// Whether a path from the repository's root lies in a folder `tests`, or is a file of that name.
+/// Whether a path from the repository's root lies in a folder `tests`, or is a file `tests.rs`.
 pub(crate) fn is_test(path: &Path) -> bool {
     path.with_extension("").iter().any(|name| name == "tests")
 }
@@ -48,7 +48,7 @@ pub(crate) fn all() -> Result<Vec<Source>, String> {
             let (path, name) = (entry.path(), entry.file_name());
             let name = name.to_string_lossy();
             if entry.file_type().map_err(named)?.is_dir() {
-                // These are folders of tools, builds and pictures.
+                // Hidden folders belong to tools. `target` and `out` hold builds and pictures.
                 let apart = name.starts_with('.') || ["target", "out"].contains(&&*name);
                 folders.extend((!apart).then_some(path));
             } else if ["rs", "cl", "wgsl"].iter().any(|kind| path.extension() == Some(OsStr::new(kind))) {

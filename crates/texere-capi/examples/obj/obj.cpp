@@ -1,4 +1,4 @@
-// A design to an OBJ file, piece by piece in bounded memory: obj DESIGN DEVICE OUTPUT.
+// From a design to an OBJ file, piece by piece in bounded memory: obj DESIGN DEVICE OUTPUT.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -18,7 +18,7 @@ static void write(const texere_piece &piece, std::FILE *file) {
     for (std::uint64_t number = 0; number < piece.index_count; number++) {
         // A piece may end within a triangle.
         bool first = (piece.first_index + number) % 3 == 0, last = (piece.first_index + number) % 3 == 2;
-        // OBJ counts from 1.
+        // OBJ files count vertices from 1.
         auto vertex = static_cast<unsigned long long>(piece.base_vertex + piece.indices[number] + 1);
         std::fprintf(file, "%s%llu//%llu%s", first ? "f " : " ", vertex, vertex, last ? "\n" : "");
     }

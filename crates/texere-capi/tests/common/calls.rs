@@ -1,4 +1,4 @@
-//! Calls that have to succeed, and what Rust makes in their place.
+//! Calls that have to succeed, and the Rust counterparts of devices and designs.
 
 #![allow(dead_code, reason = "each test uses a part of it")]
 
@@ -13,13 +13,13 @@ use texere_c::*;
 
 use crate::common::message;
 
-/// Ends the test where a call has failed.
+/// Fails the test if a call has failed.
 #[track_caller]
 pub(crate) fn done(status: texere_status) {
     assert_eq!(status, TEXERE_OK, "{}", message());
 }
 
-/// The handle that a call writes to the place that it is given.
+/// The handle that `call` writes to the pointer that it is given.
 #[track_caller]
 pub(crate) fn made<H>(call: impl FnOnce(*mut *mut H) -> texere_status) -> *mut H {
     let mut handle = null_mut();
@@ -27,7 +27,8 @@ pub(crate) fn made<H>(call: impl FnOnce(*mut *mut H) -> texere_status) -> *mut H
     handle
 }
 
-/// The backends that open here. One that `TEXERE_REQUIRE` names has to open.
+/// The names of the backends that open on this machine. The test fails if one that `TEXERE_REQUIRE`
+/// names does not open.
 pub(crate) fn devices() -> Vec<&'static str> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let opens = |name: &&str| {
@@ -51,7 +52,7 @@ pub(crate) fn rust_design(text: &str) -> Design {
     texere::read_from("text.toml", text.as_bytes(), none).unwrap()
 }
 
-/// The text that a call writes to memory whose size it has said before.
+/// The text of a call that is made twice: for the length, and for the text.
 pub(crate) fn said(call: impl Fn(*mut std::ffi::c_char, usize, *mut usize) -> texere_status) -> String {
     let mut length = 0;
     done(call(null_mut(), 0, &mut length));

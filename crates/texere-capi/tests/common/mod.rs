@@ -1,16 +1,16 @@
-//! What tests of the library share: the last error's words, and structs that say their size.
+//! Helpers of several tests: the message of the last error, and structs with their size set.
 
 use std::ffi::CStr;
 
 use texere_c::texere_error_message;
 
-/// The words of the last call of this thread that failed.
+/// The error message of the last call of this thread that failed.
 pub(crate) fn message() -> String {
     // SAFETY: the library ends it with a zero byte.
     unsafe { CStr::from_ptr(texere_error_message()) }.to_str().unwrap().to_owned()
 }
 
-/// A struct of zeros that says its size.
+/// A struct of zeros with its size set.
 pub(crate) fn sized<T>() -> T {
     // SAFETY: zeros are a value of each of these structs, all of which begin with a `u32`.
     unsafe {

@@ -1,4 +1,4 @@
-//! Designs from texts.
+//! Reading designs from texts.
 
 use std::ptr::null_mut;
 
@@ -7,7 +7,7 @@ use texere_c::*;
 
 use crate::common::message;
 
-/// The design of a text.
+/// The design that a text describes.
 pub(crate) fn read(text: &str) -> *mut texere_design {
     let (name, mut design) = ("text.toml", null_mut());
     // SAFETY: all pointers are those of values that live as long as the call.

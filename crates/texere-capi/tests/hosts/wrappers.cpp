@@ -1,4 +1,4 @@
-// What texere.hpp promises beyond texere.h: exceptions, moves, callbacks, views.
+// Tests what texere.hpp adds to texere.h: exceptions, moves, callbacks and views.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -25,7 +25,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 static Bytes bytes(std::string_view text) { return Bytes(text.begin(), text.end()); }
 
-// Woven cloth: an edit, what it changes, what a ray hits, and the measures.
+// Woven cloth: an edit, the parts that it changes, the hit of a ray, and the measures.
 static void live_cloth(const texere::Device &device) {
     const Bytes plain = bytes("weave = { notation = \"plain\", ends = 6, picks = 6 }\nfinish.settle = false\n"
                               "yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.5 }\n"
@@ -37,7 +37,7 @@ static void live_cloth(const texere::Device &device) {
     CHECK(tried.json()[0] == '{' && tried.measures_json()[0] == '{');
 
     texere::Live live(cloth, device);
-    CHECK(live.update().change_count > 0);
+    CHECK(live.update().anew == 1);
     std::vector<texere_vertex> vertices(live.counts().vertices), again(vertices.size());
     std::vector<std::uint32_t> indices(live.counts().indices);
     live.mesh(vertices, indices);
@@ -84,7 +84,7 @@ static void pictured() {
     CHECK(thrown([&] { renderer.picture(picture, small); }).status() == TEXERE_ARGUMENT);
 }
 
-// With an argument only the picture is tried: drivers leave memory behind.
+// With an argument the program only makes the picture, apart because drivers leak memory.
 int main(int count, char **) {
     if (count > 1) return pictured(), 0;
     const Bytes wrong = bytes("weave = { notation = \"plain\", ends = 4, picks = 4 }\nyarns.a.tex = -3\n");
@@ -92,7 +92,7 @@ int main(int count, char **) {
     CHECK(refused.status() == TEXERE_DESIGN && refused.file() == "wrong.toml" && refused.line() == 2);
     CHECK(std::string_view(refused.what()).find("yarns.a.tex") != std::string_view::npos);
 
-    // What a callback throws is thrown by the call.
+    // An exception of a callback leaves the call.
     const Bytes pictured = bytes("weave.image = \"a.png\"\n");
     try {
         texere::Design("pictured.toml", pictured, [](std::string_view path) {
@@ -115,7 +115,7 @@ int main(int count, char **) {
     CHECK(thrown([&] { device.describe(); }).status() == TEXERE_ARGUMENT);
     CHECK(std::string_view(other.describe().name) == "cpu");
 
-    // Views are made of what has data and a size, and never add the right to write.
+    // A view can be made of any container with data and a size, but not a writable view of const values.
     static_assert(!std::is_constructible_v<texere::view<int>, const std::vector<int> &>);
     std::array<std::uint64_t, 2> offsets{0, 2};
     std::vector<texere_point> points{{0, 0, 0, .1f, .1f}, {1, 0, 0, .1f, .1f}};
@@ -137,7 +137,7 @@ int main(int count, char **) {
     std::vector<texere_vertex> vertices(1);
     auto small = thrown([&] { plan.mesh(vertices, {}); });
     CHECK(small.status() == TEXERE_ARGUMENT && small.file().empty());
-    // Pieces and files hold what the mesh holds.
+    // Pieces and files have the same vertices and indices as the mesh.
     std::vector<std::uint32_t> indices;
     plan.mesh_vectors(vertices, indices);
     std::vector<float> placed(vertices.size() * 3);
@@ -167,7 +167,7 @@ int main(int count, char **) {
     run.cancel();
     CHECK(thrown([&] { plan.mesh_vectors(vertices, indices, &run); }).status() == TEXERE_CANCELLED);
     CHECK(run.progress() < 1 && plan.draws().size() == plan.counts().draws);
-    // What has no class is owned all the same; `cpu` has no buffers to lend.
+    // A handle without a class has an owner, too. The call fails, because `cpu` has no buffers to lend.
     using Session = texere::Owner<texere_session, texere_session_free>;
     auto lent = thrown([&] { Session(texere_session_new, plan.get(), nullptr); });
     CHECK(lent.status() == TEXERE_UNSUPPORTED);

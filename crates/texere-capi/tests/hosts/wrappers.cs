@@ -1,4 +1,4 @@
-// What the classes for C# promise beyond the calls: exceptions, disposal, structs that lie as the library's do.
+// Tests what the classes for C# add to the calls: exceptions, disposal, and structs laid out like the library's.
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
@@ -77,7 +77,7 @@ static unsafe class Wrappers
             }
             run.Cancel();
             Check(Thrown(() => plan.Mesh(vertices, indices, run)).Status == Status.Cancelled, "cancelled");
-            // The plan keeps its device.
+            // The plan stays valid when its device is disposed of.
             device.Dispose();
             device.Dispose();
             plan.Mesh(vertices, indices);
@@ -101,7 +101,7 @@ static unsafe class Wrappers
         {
             Check(check.IsClean == (check.ToString() == "clean"), check.ToString());
             Check(check.Json[0] == '{' && check.MeasuresJson[0] == '{', "JSON");
-            Check(live.Update(out var anew).Length > 0, "the first update makes the whole mesh");
+            Check(live.Update(out var anew).Length > 0 && anew, "the first update makes the whole mesh");
             var (vertices, indices) = (new Vertex[live.Vertices], new uint[live.Indices]);
             live.Mesh(vertices, indices);
             var up = live[2, 3];

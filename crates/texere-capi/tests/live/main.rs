@@ -1,4 +1,5 @@
-//! Live cloth that is edited from C is what it is when it is edited from Rust, on every device.
+//! Live cloth that is edited from C has the same mesh as one that is edited from Rust, on every
+//! device.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -42,14 +43,14 @@ fn own_settings() -> Settings {
     Settings { caps: true, ..Settings::default() }
 }
 
-/// The live cloth of the design's cloth as it is placed, made from C and from Rust.
+/// Two live cloths of a design's cloth with its yarns as placed, made from C and from Rust.
 fn live_cloth(text: &str, device: &str) -> (*mut texere_live, Live, Design) {
     let (handle, own, (device, backend)) = (design(text), rust_design(text), opened(device));
     // SAFETY: all pointers are those of values that live as long as the calls.
     let live = unsafe {
         let cloth = made(|out| texere_cloth_placed(handle, out));
         let live = made(|out| texere_live_of_cloth(cloth, device, &settings(), out));
-        // A live cloth keeps what it needs.
+        // A live cloth stays valid when its cloth, its device and the design are freed.
         texere_cloth_free(cloth);
         texere_device_free(device);
         texere_design_free(handle);
@@ -59,13 +60,13 @@ fn live_cloth(text: &str, device: &str) -> (*mut texere_live, Live, Design) {
     (live, rust, own)
 }
 
-/// An edit from C, and the edit of Rust that it has to be.
+/// An edit from C, and the same edit from Rust.
 type Edit = (&'static str, fn(*const texere_live) -> texere_status, fn(&mut Live));
 
 const NONE: texere_material =
     texere_material { name: null(), name_length: 0, tex: 0.0, hairiness: 0.0, srgb: [0; 3], reserved: 0 };
 
-/// So many points of a yarn that goes up and down.
+/// `count` control points of a yarn that goes up and down.
 fn bow(count: usize) -> Vec<ControlPoint> {
     (0..count).map(|at| ControlPoint::new(at as f32 * 0.1, 1.1, (at % 3) as f32 * 0.2, 0.15)).collect()
 }
@@ -80,7 +81,7 @@ macro_rules! c {
     }};
 }
 
-/// Edits of woven cloth, in this order.
+/// The edits of woven cloth, in the order in which the test makes them.
 const EDITS: [Edit; 8] = [
     ("a lift", |live| c!(texere_live_set_lift(live, 7, 3, 0)), |live| live.set_lift(7, 3, false).unwrap()),
     (
@@ -182,7 +183,7 @@ fn edits_make_the_mesh_that_they_make_from_rust() {
     }
 }
 
-/// What is read before an edit and set after it gives the mesh from before, to the bit.
+/// An edit is undone by setting the old value: the mesh then has the same bits as before the edit.
 #[test]
 fn edits_that_are_set_back_give_the_first_mesh() {
     for device in devices() {
@@ -231,7 +232,7 @@ fn edits_that_are_set_back_give_the_first_mesh() {
     }
 }
 
-/// A knit with a tuck and a miss takes the place of a plain one, and of a weave.
+/// A knit with a tuck and a miss replaces a plain knit, and a weave.
 #[test]
 fn another_structure_takes_the_place_of_the_first() {
     for device in devices() {
@@ -262,7 +263,7 @@ fn another_structure_takes_the_place_of_the_first() {
     }
 }
 
-/// Cloth is seen as it is placed, and again at rest.
+/// A live cloth has the yarns as placed, and then the yarns at rest.
 #[test]
 fn yarns_at_rest_take_the_place_of_those_that_are_placed() {
     let text = TWILL.replace("finish.settle = false\n", "").replace("0.5", "0.35");
@@ -286,7 +287,7 @@ fn yarns_at_rest_take_the_place_of_those_that_are_placed() {
                 drawn(live, &mesh)
             });
             assert!(meshes[0] == meshes[1] && meshes[1] == meshes[2], "on {name}");
-            // Those at rest keep their weave; yarns alone have none.
+            // A live cloth keeps its weave with yarns at rest. A live cloth of yarns has none.
             done(texere_live_set_lift(live, 0, 0, 0));
             assert_eq!(texere_live_set_lift(given, 0, 0, 0), TEXERE_ARGUMENT);
             assert!(message().contains("no weave"), "{}", message());
@@ -296,7 +297,7 @@ fn yarns_at_rest_take_the_place_of_those_that_are_placed() {
     }
 }
 
-/// A live cloth that another thread is using is refused, and is whole afterwards.
+/// A call fails while another thread uses the live cloth, which can be used as before afterwards.
 #[test]
 fn a_live_cloth_that_another_thread_uses_is_refused() {
     let (live, _, _) = live_cloth(TWILL, "cpu");
@@ -305,7 +306,7 @@ fn a_live_cloth_that_another_thread_uses_is_refused() {
     let handle = move || std::ptr::without_provenance_mut::<texere_live>(number);
     std::thread::scope(|threads| {
         let other = threads.spawn(move || {
-            // So many edits that this thread is stopped in the middle of one on any machine.
+            // There are enough edits for the main thread to call during one of them on any machine.
             let mut edits = 0;
             while edits < 2_000 && !stop.load(Ordering::Relaxed) {
                 match c!(texere_live_set_tension(handle(), (edits % 2) as f32 * 0.1)) {

@@ -1,11 +1,15 @@
-//! What a ray hits, and what a weaver calls the place.
+//! What a ray hits, and the name of the place in a weaver's terms.
 
-use texere::Live;
+use std::ptr::null_mut;
+
 use texere::mesh::Ray;
 use texere::yarn::YarnPlace;
+use texere::{ControlPoint, Live};
+use texere_c::texere_status::*;
 use texere_c::*;
 
 use crate::calls::{done, made, said};
+use crate::common::message;
 use crate::reading::read as design;
 use crate::{TWILL, live_cloth, own_settings, settings};
 
@@ -67,6 +71,37 @@ fn a_hit_is_that_of_rust_and_is_called_what_a_weaver_calls_it() {
                 assert_eq!(words, own.named(&edited, &place).to_string());
             }
         }
+        // An end with half of its points: where its intervals lie elsewhere in the cloth, their
+        // names would be those of other picks.
+        let point = |own: &ControlPoint| texere_point {
+            x: own.x,
+            y: own.y,
+            z: own.z,
+            half_width: own.half_width(),
+            half_height: own.half_height(),
+        };
+        let points: Vec<_> = placed.yarn_points(7).unwrap().iter().step_by(2).map(point).collect();
+        done(texere_live_set_points(live, 7, points.as_ptr(), points.len()));
+        let (mut refused, mut named) = (0, 0);
+        for y in 1..40 {
+            let above = texere_ray { origin: [3.75, 0.1 * f64::from(y), 9.0], direction: [0.0, 0.0, -1.0] };
+            let mut hit = texere_hit::default();
+            done(texere_live_pick(live, &above, &mut hit));
+            if hit.found == 0 || hit.yarn != 7 {
+                continue;
+            }
+            let mut length = 0;
+            match texere_cloth_place(cloth, &hit, null_mut(), 0, &mut length) {
+                TEXERE_OK => named += 1,
+                status => {
+                    assert_eq!(status, TEXERE_ARGUMENT);
+                    assert!(message().contains("mm from place"), "{}", message());
+                    refused += 1;
+                }
+            }
+            done(texere_live_place(live, &hit, null_mut(), 0, &mut length));
+        }
+        assert!(refused > 4, "{refused} refused, {named} named");
         assert!(hits > 40 && misses > 4 && moved > 0, "{hits} hits, {misses} misses, {moved} moved");
     }
 }

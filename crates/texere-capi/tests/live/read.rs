@@ -12,7 +12,7 @@ use crate::common::sized;
 
 const BLANK: Vertex = Vertex { position: [0.0; 3], normal: [0.0; 3] };
 
-/// A mesh in memory of the test.
+/// A mesh in the test's memory.
 #[derive(Clone, Default)]
 pub(crate) struct Mesh {
     pub(crate) vertices: Vec<Vertex>,
@@ -31,12 +31,12 @@ pub(crate) fn update(live: *const texere_live) -> (Vec<texere_change>, bool) {
     let mut update: texere_update = sized();
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
-        done(texere_live_update(live, &mut update));
+        done(texere_live_update(live, null(), &mut update));
         (std::slice::from_raw_parts(update.changes, update.change_count as usize).to_vec(), update.anew == 1)
     }
 }
 
-/// Reads the whole mesh over what `mesh` holds.
+/// Reads the whole mesh into `mesh`.
 pub(crate) fn read(live: *const texere_live, mesh: &mut Mesh) {
     let sizes = counts(live);
     mesh.vertices.resize(sizes.vertices as usize, BLANK);
@@ -46,7 +46,7 @@ pub(crate) fn read(live: *const texere_live, mesh: &mut Mesh) {
     done(unsafe { texere_live_mesh(live, null(), vertices, sizes.vertices, indices, sizes.indices) });
 }
 
-/// Reads only what has changed into `mesh`.
+/// Reads only the changes into `mesh`.
 pub(crate) fn follow(live: *const texere_live, changes: &[texere_change], mesh: &mut Mesh) {
     let sizes = counts(live);
     mesh.vertices.resize(sizes.vertices as usize, BLANK);
@@ -78,8 +78,8 @@ pub(crate) fn drawn(live: *const texere_live, mesh: &Mesh) -> Vec<(u32, Vec<Vert
     draws.iter().map(corners).collect()
 }
 
-/// What is drawn of the mesh as Rust reads it, chunk by chunk. Room between yarns is left out: a
-/// device may hold anything there.
+/// The triangles that are drawn of the mesh as Rust reads it, chunk by chunk. Room between yarns is
+/// left out, because its contents are undefined.
 pub(crate) fn rust_drawn(live: &mut Live) -> Vec<(u32, Vec<Vertex>)> {
     let mesh = live.mesh_mut();
     let (plan, mut all) = (mesh.plan().clone(), Vec::new());

@@ -1,4 +1,4 @@
-//! Whatever a plan makes has the bytes that Rust gives, on every device.
+//! All outputs of a plan have the same bytes from C as from Rust, on every device.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -17,10 +17,14 @@ use texere::{Backend, Mesh, Pipeline, Settings, Yarns};
 use texere_c::texere_status::*;
 use texere_c::*;
 
-/// Chunks of the library's size, so that meshes are cut alike.
-const LIMITS: Limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
+/// Limits that cut meshes into the same chunks as the library does: 8 MiB for each core, 16 to 64
+/// MiB.
+fn limits() -> Limits {
+    let cores = std::thread::available_parallelism().unwrap().get() as u64;
+    Limits { binding_bytes: (cores << 23).clamp(16 << 20, 64 << 20), ..Limits::NONE }
+}
 
-/// Calls `check` for each subject on each device, with the settings that suit it.
+/// Calls `check` for all yarns on all devices, with the settings that suit the yarns.
 fn everywhere(check: impl Fn(&str, &dyn Backend, &Yarns, &Settings, &Plan)) {
     for device in devices() {
         let backend = texere::open(device).unwrap();
@@ -35,7 +39,7 @@ fn everywhere(check: impl Fn(&str, &dyn Backend, &Yarns, &Settings, &Plan)) {
 }
 
 fn pipeline<'a>(yarns: &'a Yarns, settings: &Settings) -> Pipeline<'a> {
-    Pipeline::new(yarns).settings(*settings).limits(LIMITS)
+    Pipeline::new(yarns).settings(*settings).limits(limits())
 }
 
 fn same_mesh(name: &str, mesh: &Mesh, vertices: &[texere_vertex], indices: &[u32]) {
@@ -117,14 +121,14 @@ fn a_mesh_laid_apart_has_the_values_of_the_dense_one_and_leaves_the_rest_alone()
         assert!(wide.iter().map(|own| own[0]).eq(indices.iter().copied()), "{name}");
         assert!(wide.iter().all(|own| own[1..] == [5, 5]), "{name}");
 
-        // Positions alone.
+        // Positions alone, without normals and indices.
         let mut positions = vec![[9.0_f32; 3]; vertices.len()];
         let arrays = texere_mesh_arrays { positions: whole(&mut positions), ..sized() };
         // SAFETY: as above.
         ok(unsafe { texere_plan_mesh_arrays(plan.handle, null(), &arrays) });
         assert!(positions.iter().eq(vertices.iter().map(|vertex| &vertex.position)), "{name}");
 
-        // One behind the other.
+        // Each normal right behind its position.
         let (mut dense, mut own) = (vec![VERTEX; vertices.len()], vec![7; indices.len()]);
         let positions = whole(&mut dense);
         let normals = texere_view {
@@ -139,7 +143,7 @@ fn a_mesh_laid_apart_has_the_values_of_the_dense_one_and_leaves_the_rest_alone()
     });
 }
 
-/// What a stream has brought so far.
+/// The pieces that a stream has brought so far.
 struct Streamed {
     vertices: Vec<texere_vertex>,
     indices: Vec<u32>,
@@ -149,7 +153,7 @@ struct Streamed {
     most: u64,
 }
 
-/// Adds a piece to what has come. Answers 1 where it does not follow on.
+/// Adds a piece to those that have come. Returns 1 if the piece does not follow the one before.
 unsafe extern "C" fn collect(user: *mut c_void, piece: *const texere_piece) -> i32 {
     // SAFETY: the pointers are what the test and the library say.
     let (all, piece) = unsafe { (&mut *user.cast::<Streamed>(), &*piece) };
@@ -190,8 +194,8 @@ fn the_pieces_of_a_stream_are_the_whole_mesh() {
             (draw.yarn, draw.indices.start, draw.indices.end - draw.indices.start, draw.base_vertex)
         });
         assert!(draws.eq(own), "{name}: other draws");
-        // A chunk's worth: what a cancelled call may still have to do.
-        assert!(all.most <= (8 << 20) / 24, "{name}: {} vertices in a piece", all.most);
+        // No piece is larger than a chunk, which bounds what a cancelled call still has to do.
+        assert!(all.most <= limits().binding_bytes / 24, "{name}: {} vertices in a piece", all.most);
     });
 }
 
@@ -245,13 +249,13 @@ fn a_callback_that_answers_otherwise_ends_the_call_with_its_number() {
     }
 }
 
-/// A run, and the last chunk that came.
+/// A run, and the number of the chunk of the last piece.
 struct Cancelled {
     run: *mut texere_run,
     last: u64,
 }
 
-/// Cancels the run once a piece has come.
+/// Cancels the run at each piece.
 unsafe extern "C" fn cancel(user: *mut c_void, piece: *const texere_piece) -> i32 {
     // SAFETY: the pointers are what the test and the library say.
     unsafe {

@@ -1,4 +1,4 @@
-//! Plans of the library, the devices that there are, and yarns to try them with.
+//! Plans of the library, devices, and yarns to try them with.
 
 use std::ffi::CStr;
 use std::path::Path;
@@ -19,7 +19,8 @@ pub(crate) fn ok(status: texere_status) {
     assert_eq!(status, TEXERE_OK, "{}", message());
 }
 
-/// The devices that there are; those that `TEXERE_REQUIRE` names have to be there.
+/// The names of the devices that open on this machine. The test fails if one that `TEXERE_REQUIRE`
+/// names does not open.
 pub(crate) fn devices() -> Vec<&'static str> {
     let required = std::env::var("TEXERE_REQUIRE").unwrap_or_default();
     let mut all = vec!["cpu", "opencl", "wgpu"];
@@ -33,12 +34,15 @@ pub(crate) fn devices() -> Vec<&'static str> {
     all
 }
 
-/// A weave, a knit and a warp knit as they are placed, and yarns whose mesh needs several chunks.
+/// A weave, a weft knit and a warp knit with their yarns as placed, and yarns whose mesh needs
+/// several chunks.
 pub(crate) fn subjects() -> Vec<(&'static str, Yarns)> {
     let designs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../designs");
     let placed = |name: &'static str| {
         (name, texere::read(designs.join(name)).unwrap().placed(0.0).unwrap().yarns().clone())
     };
+    // 20,000 for each 8 MiB of a chunk.
+    let points = 20_000 * (crate::limits().binding_bytes >> 23) as u32;
     let mut several = Yarns::builder();
     for number in 0..3_u32 {
         let wave = |place: u32| {
@@ -46,7 +50,7 @@ pub(crate) fn subjects() -> Vec<(&'static str, Yarns)> {
             texere::ControlPoint::new(along, number as f32 + (along * 0.7).sin(), (along * 0.3).cos(), 0.1)
         };
         let yarn = texere::Yarn { twist: number as f32, ..texere::Yarn::default() };
-        several.yarn(yarn, &(0..20_000).map(wave).collect::<Vec<_>>());
+        several.yarn(yarn, &(0..points).map(wave).collect::<Vec<_>>());
     }
     let several = ("several chunks", several.build().unwrap());
     vec![placed("denim.toml"), placed("jersey.toml"), placed("tricot.toml"), several]
@@ -60,7 +64,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// The plan of yarns, which go through a file, with the settings that `Settings` says.
+    /// The plan of `yarns` with these settings. The yarns get to the library through a file.
     pub(crate) fn new(yarns: &Yarns, device: &str, settings: &Settings) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("all.yarns");
@@ -122,10 +126,10 @@ impl Drop for Plan {
 
 pub(crate) const VERTEX: texere_vertex = texere_vertex { position: [9.0; 3], normal: [9.0; 3] };
 
-/// A struct with its size set and zeros beside it.
+/// A struct of zeros with its size set.
 pub(crate) fn sized<T>() -> T {
-    // SAFETY: only for structs of the library, of which zeros are a value. Each begins with a
-    // `u32`.
+    // SAFETY: the tests call it only for structs of the library. Zeros are a valid value of each,
+    // and each begins with a `u32`.
     unsafe {
         let mut zeros: T = std::mem::zeroed();
         from_mut(&mut zeros).cast::<u32>().write(size_of::<T>() as u32);

@@ -1,5 +1,5 @@
-//! A mesh that stays on its device has the bytes of the mesh in host memory, read there by the
-//! device's own interface.
+//! A mesh that stays on its device has the same bytes as the mesh in host memory. The test reads it
+//! with OpenCL or Vulkan.
 
 use std::ptr::{null, null_mut};
 
@@ -116,7 +116,7 @@ fn lent_buffers_hold_the_mesh() {
                     ok(texere_session_wait(session));
                     ok(texere_session_read(session, number, to, lengths[0], to_indices, lengths[1]));
                     if number > 1 {
-                        // Its buffers are those of chunk 2 by now.
+                        // A later chunk has taken the buffers of chunk 0 by now.
                         ok(texere_plan_chunk(plan.handle, 0, &mut chunk));
                         let (mut old, mut old_indices) =
                             (vec![VERTEX; chunk.vertex_count as usize], vec![7; chunk.index_count as usize]);

@@ -1,4 +1,4 @@
-//! Measures and checks with what they can't take.
+//! Calls about measures and checks with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -11,7 +11,7 @@ use crate::tools::{Case, case, handles, sizes, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
-    // A null place for the result.
+    // A null pointer for the result.
     case!(cases, texere_cloth_measures(own.cloth, null_mut()));
     case!(cases, texere_cloth_lengths(own.cloth, null_mut(), 1));
     case!(cases, texere_check_new(own.cloth, null(), TEXERE_ACCURACY, null(), null_mut()));
@@ -41,7 +41,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     for accuracy in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
         case!(cases, texere_check_new(own.cloth, null(), accuracy, null(), &mut null_mut()));
     }
-    // Numbers of faults, warnings and materials that there are not.
+    // Faults and warnings that do not exist, and a wrong number of materials.
     case!(cases, texere_check_fault(own.check, u64::MAX, &mut sized()));
     case!(cases, texere_check_warning(own.check, u64::MAX, &mut null()));
     case!(cases, texere_cloth_lengths(own.cloth, [0.0; 2].as_mut_ptr(), 2));

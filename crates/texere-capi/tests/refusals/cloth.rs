@@ -1,4 +1,4 @@
-//! Devices, designs, cloth and runs with what they can't take.
+//! Calls about devices, designs, cloth and runs with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -12,7 +12,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let ((cpu, length), (toml, toml_length)) = (text(c"cpu"), text(c"plain.toml"));
     let (bytes, size) = (DESIGN.as_ptr(), DESIGN.len());
-    // A null place for the result.
+    // A null pointer for the result.
     case!(cases, texere_error_place(null_mut()));
     case!(cases, texere_device_open(cpu, length, null_mut()));
     case!(cases, texere_device_describe(own.device, null_mut()));
@@ -25,7 +25,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_cloth_report(own.cloth, null_mut()));
     case!(cases, texere_cloth_warning(own.cloth, 0, null_mut()));
     case!(cases, texere_cloth_yarns(own.cloth, null_mut()));
-    // A null text that has a length, and one that is not UTF-8.
+    // A null text with a length, and a text that is not UTF-8.
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_device_open(text, length, &mut null_mut()));
         case!(cases, texere_design_read(text, length, &mut null_mut()));

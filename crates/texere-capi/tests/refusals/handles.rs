@@ -39,7 +39,7 @@ impl Handles {
             let yarns = made(|out| texere_cloth_yarns(cloth, out));
             let plan = made(|out| texere_plan_new(yarns, device, null(), out));
             let live = made(|out| texere_live_of_cloth(cloth, device, null(), out));
-            done(texere_live_update(live, &mut sized()));
+            done(texere_live_update(live, null(), &mut sized()));
             let picker = made(|out| texere_picker_new(yarns, null(), out));
             let check = made(|out| texere_check_new(cloth, null(), TEXERE_ACCURACY, null(), out));
             let renderer = made(|out| texere_renderer_open(null(), 0, out));
@@ -49,7 +49,7 @@ impl Handles {
     }
 }
 
-/// A text as C passes it.
+/// A text as C passes it: a pointer and a length.
 pub(crate) fn text(text: &'static CStr) -> (*const c_char, usize) {
     (text.as_ptr(), text.count_bytes())
 }
@@ -60,7 +60,7 @@ fn memory(counts: &texere_counts) -> (Vec<texere_vertex>, Vec<u32>) {
     (vec![blank; counts.vertices as usize], vec![0; counts.indices as usize])
 }
 
-/// Makes the mesh of a plan in memory of its own: how the call ended, and the vertices.
+/// Makes the mesh of a plan in new memory. Returns the status of the call and the vertices.
 pub(crate) fn mesh(plan: *const texere_plan, run: *const texere_run) -> (texere_status, Vec<texere_vertex>) {
     let mut counts: texere_counts = sized();
     // SAFETY: all pointers are those of values that live as long as the calls.
@@ -72,7 +72,7 @@ pub(crate) fn mesh(plan: *const texere_plan, run: *const texere_run) -> (texere_
     }
 }
 
-/// Reads the mesh of a live cloth into memory of its own: how the call ended.
+/// Reads the mesh of a live cloth into new memory. Returns the status of the call.
 pub(crate) fn live_mesh(live: *const texere_live, run: *const texere_run) -> texere_status {
     let mut counts: texere_counts = sized();
     // SAFETY: all pointers are those of values that live as long as the calls.

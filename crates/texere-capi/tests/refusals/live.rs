@@ -1,25 +1,14 @@
-//! Live cloth and pickers with what they can't take.
+//! Calls about live cloth and pickers with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
 use texere_c::*;
 
+use crate::calls::done;
 use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::wrong_settings;
 use crate::tools::{Case, case, handles, sizes, strange};
-
-const HIT: texere_hit = texere_hit {
-    found: 1,
-    yarn: 0,
-    ring: 0,
-    side: 0,
-    cap: 0,
-    interval: 0,
-    t: 0.5,
-    distance: 0.0,
-    position: [0.0; 3],
-};
 
 const MATERIAL: texere_material =
     texere_material { name: null(), name_length: 0, tex: 0.0, hairiness: 0.0, srgb: [0; 3], reserved: 0 };
@@ -52,23 +41,23 @@ fn making(own: &'static Handles) -> Vec<Case> {
 fn reading(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let none = texere_change { first_vertex: 0, vertex_count: 0, first_index: 0, index_count: 0 };
-    case!(cases, texere_live_update(own.live, null_mut()));
+    case!(cases, texere_live_update(own.live, null(), null_mut()));
     case!(cases, texere_live_counts(own.live, null_mut()));
     case!(cases, texere_live_draws(own.live, null_mut()));
     case!(cases, texere_live_yarns(own.live, null_mut()));
     case!(cases, texere_live_read(own.live, null(), null_mut(), 0, null_mut(), 0));
-    handles!(cases, own, texere_live, |live| texere_live_update(live, &mut sized()));
+    handles!(cases, own, texere_live, |live| texere_live_update(live, null(), &mut sized()));
     handles!(cases, own, texere_live, |live| texere_live_counts(live, &mut sized()));
     handles!(cases, own, texere_live, |live| texere_live_draws(live, &mut null()));
     handles!(cases, own, texere_live, |live| texere_live_yarns(live, &mut null_mut()));
     handles!(cases, own, texere_live, |live| texere_live_mesh(live, null(), null_mut(), 0, null_mut(), 0));
     handles!(cases, own, texere_live, |live| texere_live_read(live, &none, null_mut(), 0, null_mut(), 0));
-    sizes!(cases, texere_update, |update| texere_live_update(own.live, &mut update));
+    sizes!(cases, texere_update, |update| texere_live_update(own.live, null(), &mut update));
     sizes!(cases, texere_counts, |counts| texere_live_counts(own.live, &mut counts));
     for run in strange() {
         case!(cases, texere_live_mesh(own.live, run, null_mut(), 0, null_mut(), 0));
     }
-    // Numbers of values that are not those of the mesh, stretches that are no part of it, and null
+    // Counts that are not those of the mesh, ranges that do not lie within the mesh, and null
     // arrays.
     case!(cases, texere_live_mesh(own.live, null(), null_mut(), 1, null_mut(), 1));
     case!(cases, texere_live_read(own.live, &none, null_mut(), 1, null_mut(), 0));
@@ -132,7 +121,7 @@ fn edits_of_yarns(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_yarns, |it| texere_live_set_rest(own.live, it));
     sizes!(cases, texere_yarn, |what| texere_live_set_yarn(own.live, 0, &what, POINTS.as_ptr(), 2));
     sizes!(cases, texere_yarn, |what| texere_live_yarn(own.live, 0, &mut what));
-    // Yarns and materials that there are not, values that they can't have, too few points.
+    // Yarns and materials that do not exist, invalid values of them, and too few control points.
     for yarn in [8, u64::MAX] {
         case!(cases, texere_live_set_yarn(own.live, yarn, &what, POINTS.as_ptr(), 2));
         case!(cases, texere_live_set_points(own.live, yarn, POINTS.as_ptr(), 2));
@@ -166,36 +155,49 @@ fn edits_of_yarns(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
+/// What a ray down onto the middle of the cloth hits.
+fn hit(own: &Handles) -> texere_hit {
+    let (ray, mut hit) =
+        (texere_ray { origin: [0.75, 0.7, 9.0], direction: [0.0, 0.0, -1.0] }, texere_hit::default());
+    // SAFETY: all pointers are those of values that live as long as the call.
+    done(unsafe { texere_picker_pick(own.picker, &ray, &mut hit) });
+    assert_eq!(hit.found, 1);
+    hit
+}
+
 fn picking(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let ray = texere_ray { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    let right = hit(own);
     case!(cases, texere_live_pick(own.live, null(), &mut texere_hit::default()));
     case!(cases, texere_live_pick(own.live, &ray, null_mut()));
     case!(cases, texere_picker_pick(own.picker, null(), &mut texere_hit::default()));
     case!(cases, texere_picker_pick(own.picker, &ray, null_mut()));
     handles!(cases, own, texere_live, |it| texere_live_pick(it, &ray, &mut texere_hit::default()));
     handles!(cases, own, texere_picker, |it| texere_picker_pick(it, &ray, &mut texere_hit::default()));
-    handles!(cases, own, texere_live, |it| texere_live_place(it, &HIT, null_mut(), 0, &mut 0));
-    handles!(cases, own, texere_cloth, |it| texere_cloth_place(it, &HIT, null_mut(), 0, &mut 0));
+    handles!(cases, own, texere_live, |it| texere_live_place(it, &right, null_mut(), 0, &mut 0));
+    handles!(cases, own, texere_cloth, |it| texere_cloth_place(it, &right, null_mut(), 0, &mut 0));
     for hit in [
-        texere_hit { found: 0, ..HIT },
-        texere_hit { yarn: 8, ..HIT },
-        texere_hit { interval: u32::MAX, ..HIT },
-        texere_hit { t: f64::NAN, ..HIT },
+        texere_hit { found: 0, ..right },
+        texere_hit { yarn: 8, ..right },
+        texere_hit { interval: u32::MAX, ..right },
+        texere_hit { t: f64::NAN, ..right },
+        texere_hit { position: [9.0; 3], ..right },
+        texere_hit { position: [f64::NAN; 3], ..right },
     ] {
         case!(cases, texere_live_place(own.live, &hit, null_mut(), 0, &mut 0));
         case!(cases, texere_cloth_place(own.cloth, &hit, null_mut(), 0, &mut 0));
     }
-    // No hit, no place for the text or its length, one that is too small.
+    // No hit, a null pointer for the text or for its length, and too little room for the text.
     case!(cases, texere_live_place(own.live, null(), null_mut(), 0, &mut 0));
     case!(cases, texere_cloth_place(own.cloth, null(), null_mut(), 0, &mut 0));
     for size in [1, 4] {
-        case!(cases, texere_live_place(own.live, &HIT, [0; 4].as_mut_ptr(), size, &mut 0));
-        case!(cases, texere_cloth_place(own.cloth, &HIT, [0; 4].as_mut_ptr(), size, &mut 0));
+        case!(cases, texere_live_place(own.live, &right, [0; 4].as_mut_ptr(), size, &mut 0));
+        case!(cases, texere_cloth_place(own.cloth, &right, [0; 4].as_mut_ptr(), size, &mut 0));
     }
-    case!(cases, texere_live_place(own.live, &HIT, null_mut(), 100, &mut 0));
-    case!(cases, texere_cloth_place(own.cloth, &HIT, null_mut(), 100, &mut 0));
-    case!(cases, texere_live_place(own.live, &HIT, null_mut(), 0, null_mut()));
-    case!(cases, texere_cloth_place(own.cloth, &HIT, null_mut(), 0, null_mut()));
+    case!(cases, texere_live_place(own.live, &right, null_mut(), 100, &mut 0));
+    case!(cases, texere_cloth_place(own.cloth, &right, null_mut(), 100, &mut 0));
+    case!(cases, texere_live_place(own.live, &right, null_mut(), 0, null_mut()));
+    case!(cases, texere_cloth_place(own.cloth, &right, null_mut(), 0, null_mut()));
     cases
 }

@@ -1,4 +1,4 @@
-//! Every function of the header refuses what it can't take, with the status that says so.
+//! Every function of the header refuses invalid arguments with TEXERE_ARGUMENT.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -8,6 +8,7 @@ mod check;
 mod cloth;
 #[path = "../common/mod.rs"]
 mod common;
+mod growth;
 mod handles;
 mod live;
 mod mesh;
@@ -19,8 +20,9 @@ mod structures;
 mod tools;
 
 use std::path::Path;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
+use calls::done;
 use common::{message, sized};
 use handles::{DESIGN, Handles};
 use reading::read;
@@ -63,7 +65,7 @@ fn every_function_refuses_what_it_can_not_take() {
         assert_eq!(call(), TEXERE_ARGUMENT, "{name}, case {number}: {}", message());
         assert!(!message().is_empty(), "{name}, case {number}");
     }
-    // The header's list, so that none is forgotten.
+    // The functions of the header, to make sure that no function is missing here.
     let header =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("include/texere.h")).unwrap();
     let names = header.lines().filter_map(|line| {
@@ -97,7 +99,7 @@ fn what_was_freed_is_refused_and_may_be_freed_again() {
             texere_yarns_free(own.yarns);
             texere_renderer_free(own.renderer);
         }
-        // The plan keeps what it needs.
+        // The plan keeps its yarns and its device when their handles are freed.
         let (status, vertices) = handles::mesh(own.plan, null_mut());
         assert_eq!(status, TEXERE_OK, "{}", message());
         assert!(vertices.iter().all(|vertex| vertex.normal != [0.0; 3]));
@@ -110,8 +112,16 @@ fn what_was_freed_is_refused_and_may_be_freed_again() {
     }
 }
 
+/// Whether the warp is up where the first end and the first pick cross.
+fn lift(live: *const texere_live) -> u32 {
+    let mut up = 0;
+    // SAFETY: the place lives as long as the call.
+    done(unsafe { texere_live_lift(live, 0, 0, &mut up) });
+    up
+}
+
 #[test]
-fn a_cancelled_run_ends_rest_mesh_and_file() {
+fn a_cancelled_run_ends_rest_mesh_edits_and_file() {
     let own = Handles::new();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("none.ply");
@@ -121,6 +131,11 @@ fn a_cancelled_run_ends_rest_mesh_and_file() {
         assert_eq!(texere_run_cancel(own.run), TEXERE_OK);
         assert_eq!(handles::mesh(own.plan, own.run).0, TEXERE_CANCELLED, "{}", message());
         assert_eq!(handles::live_mesh(own.live, own.run), TEXERE_CANCELLED, "{}", message());
+        done(texere_live_set_lift(own.live, 0, 0, 1 - lift(own.live)));
+        assert_eq!(texere_live_update(own.live, own.run, &mut sized()), TEXERE_CANCELLED, "{}", message());
+        let mut update: texere_update = sized();
+        done(texere_live_update(own.live, null(), &mut update));
+        assert!(update.change_count > 0 && update.anew == 0, "the next update makes what was left");
         assert_eq!(texere_plan_write(own.plan, own.run, text.as_ptr().cast(), text.len()), TEXERE_CANCELLED);
         assert!(!path.exists());
         let design = read(&DESIGN.replace("finish.settle = false\n", ""));

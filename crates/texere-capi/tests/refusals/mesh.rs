@@ -1,4 +1,4 @@
-//! Yarns, settings and plans with what they can't take.
+//! Calls about yarns, settings and plans with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -14,12 +14,12 @@ static POINTS: [texere_point; 2] = [
     texere_point { x: f32::NAN, y: 0.0, z: 0.0, half_width: 0.1, half_height: 0.1 },
 ];
 
-/// Settings that a mesh can have.
+/// Valid settings.
 pub(crate) fn settings() -> texere_settings {
     texere_settings { subdivisions: 1, sides: 6, quantum_mm: 1.0, ..sized() }
 }
 
-/// Settings that no mesh can have.
+/// Invalid settings.
 pub(crate) fn wrong_settings() -> [texere_settings; 5] {
     let right = settings();
     [
@@ -34,14 +34,14 @@ pub(crate) fn wrong_settings() -> [texere_settings; 5] {
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     let (toml, toml_length) = text(c"plain.toml");
-    // A null place for the result.
+    // A null pointer for the result.
     case!(cases, texere_settings_default(own.yarns, null_mut()));
     case!(cases, texere_yarns_counts(own.yarns, null_mut()));
     case!(cases, texere_yarns_new(null(), &mut null_mut()));
     case!(cases, texere_plan_new(own.yarns, own.device, null(), null_mut()));
     case!(cases, texere_plan_counts(own.plan, null_mut()));
     case!(cases, texere_plan_draws(own.plan, null_mut()));
-    // A null text that has a length, and one that is not UTF-8.
+    // A null text with a length, and a text that is not UTF-8.
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_yarns_read(text, length, &mut null_mut()));
         case!(cases, texere_yarns_write(own.yarns, text, length));
@@ -71,8 +71,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     sizes!(cases, texere_yarn_counts, |counts| texere_yarns_counts(own.yarns, &mut counts));
     sizes!(cases, texere_yarn_arrays, |arrays| texere_yarns_new(&arrays, &mut null_mut()));
     sizes!(cases, texere_counts, |counts| texere_plan_counts(own.plan, &mut counts));
-    // Numbers of values that are not those of the plan or of the yarns, and null arrays of the
-    // right ones.
+    // Counts that are not those of the plan or of the yarns, and right counts with null arrays.
     case!(cases, texere_yarns_points(own.yarns, &mut 0, 1, &mut texere_point::default(), 1));
     case!(cases, texere_plan_mesh(own.plan, null(), null_mut(), 1, null_mut(), 1));
     let mut counts: texere_counts = sized();
@@ -86,7 +85,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
-/// Arrays that no yarns can be.
+/// Arrays from which no yarns can be made.
 fn arrays() -> Vec<Case> {
     static OFFSETS: [&[u64]; 4] = [&[0, 2], &[1, 2], &[0, 2, 1], &[0, 1]];
     let mut cases: Vec<Case> = Vec::new();

@@ -1,4 +1,4 @@
-//! Plans and sessions, and the memory that they write to, with what they can't take.
+//! Calls about plans and sessions, and the memory that they write to, with one wrong argument each.
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
@@ -18,7 +18,7 @@ unsafe extern "C" fn take_piece(_: *mut c_void, _: *const texere_piece) -> i32 {
     0
 }
 
-/// Views that are null, too small, misaligned, whose values overlap, that are larger than memory.
+/// Invalid views: null, too small, misaligned, with values that overlap, and larger than memory.
 fn views() -> &'static [texere_view] {
     let memory: *mut c_void = Box::leak(Box::new([0_u64; 9])).as_mut_ptr().cast();
     let of = |data, size, stride| texere_view { data, size, stride };

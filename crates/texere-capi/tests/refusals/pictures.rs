@@ -1,4 +1,4 @@
-//! Wrong calls about pictures.
+//! Calls about pictures with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -80,7 +80,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
-fn picture() -> texere_picture {
+pub(crate) fn picture() -> texere_picture {
     let mut picture = sized();
     // SAFETY: the place lives as long as the call.
     assert_eq!(unsafe { texere_picture_default(&mut picture) }, TEXERE_OK);

@@ -1,4 +1,4 @@
-//! Wrong calls about structures by arrays, their finish, and the files of designs.
+//! Calls about designs from arrays, finishes and files of designs, with one wrong argument each.
 
 use std::ptr::{null, null_mut};
 
@@ -72,7 +72,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
-fn finish(own: &Handles) -> texere_finish {
+pub(crate) fn finish(own: &Handles) -> texere_finish {
     let mut finish = sized();
     // SAFETY: the place lives as long as the call.
     assert_eq!(unsafe { texere_design_finish(own.design, &mut finish) }, TEXERE_OK);

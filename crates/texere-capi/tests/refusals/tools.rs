@@ -1,26 +1,28 @@
-//! How a call with one wrong argument is written down.
+//! Macros that list calls with one wrong argument each.
 
 use std::ptr::without_provenance_mut;
 
 use texere_c::texere_status;
 
-/// A call, and its name. Its status says that the argument is refused.
+/// A call and its name. The call has to fail with TEXERE_ARGUMENT.
 pub(crate) type Case = (&'static str, Box<dyn Fn() -> texere_status>);
 
-/// A handle that was freed, and one that never was any.
+/// Two numbers that are no handles: one so high that the library never gives it, and one that is
+/// not a multiple of 16.
 pub(crate) fn strange<H>() -> [*mut H; 2] {
     [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
 }
 
-/// A call with one wrong argument; everything else about it is right.
+/// Adds a call with one wrong argument. All other arguments are right.
 macro_rules! case {
     ($cases:ident, $name:ident($($argument:expr),* $(,)?)) => {
-        // SAFETY: what is wrong is what the library says that it refuses.
+        // SAFETY: the wrong argument is one that the library refuses without using it.
         $cases.push((stringify!($name), Box::new(move || unsafe { $name($($argument),*) })))
     };
 }
 
-/// A call with handles that are null, that are none, that are of another kind.
+/// Adds a call four times: with a null handle, with two numbers that are no handles, and with a
+/// handle of another kind.
 macro_rules! handles {
     ($cases:ident, $own:ident, $kind:ty, |$handle:ident| $name:ident($($argument:expr),* $(,)?)) => {
         let other = if stringify!($kind) == "texere_run" { $own.device.cast() } else { $own.run.cast() };
@@ -31,12 +33,12 @@ macro_rules! handles {
     };
 }
 
-/// A call with structs of another size than the library's.
+/// Adds a call with several values of `struct_size` that are not the size of the struct.
 macro_rules! sizes {
     ($cases:ident, $kind:ty, |$given:ident| $name:ident($($argument:expr),* $(,)?)) => {
         for size in [0, 4, size_of::<$kind>() as u32 - 1, size_of::<$kind>() as u32 + 1, u32::MAX] {
-            // SAFETY: what is wrong is what the library says that it refuses; zeros are a value of
-            // each of these structs.
+            // SAFETY: the library refuses a wrong size without using the rest; zeros are a valid
+            // value of each of these structs.
             $cases.push((stringify!($name), Box::new(move || unsafe {
                 let mut $given: $kind = std::mem::zeroed();
                 $given.struct_size = size;

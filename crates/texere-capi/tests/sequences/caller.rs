@@ -1,4 +1,4 @@
-//! A caller: draws handles, texts and numbers by chance, right ones and wrong ones.
+//! A caller, which draws random handles, texts and numbers, valid and invalid.
 
 use std::ffi::c_char;
 use std::path::Path;
@@ -11,13 +11,13 @@ use crate::common::{message, sized};
 use crate::kinds::{KINDS, Kind, free};
 use crate::operations::Operation;
 
-/// Numbers by chance (Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
-/// 2014: SplitMix).
+/// Random numbers (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014:
+/// SplitMix).
 #[derive(Debug)]
 pub(crate) struct Random(u64);
 
 impl Random {
-    /// The numbers of sequence `number`.
+    /// The random numbers for sequence `number`.
     pub(crate) fn of(seed: u64, number: u64) -> Self {
         let mut random = Self(seed ^ number.wrapping_mul(0xd134_2543_de82_ef95));
         random.next();
@@ -44,7 +44,7 @@ impl Random {
         values[self.below(values.len())]
     }
 
-    /// A number near `usual`, and now and then one that hardly anything takes.
+    /// A number near `usual`, and sometimes a number that few functions accept.
     pub(crate) fn number(&mut self, usual: f64) -> f64 {
         if self.one_in(40) {
             return self.pick(&[0.0, -1.0, f64::NAN, f64::INFINITY, 1e30, 1e-30, -1e9]);
@@ -52,24 +52,24 @@ impl Random {
         usual * (0.8 + 0.4 * (self.next() as f64 / u64::MAX as f64))
     }
 
-    /// One of the first `count` numbers, and now and then another.
+    /// One of the first `count` numbers, and sometimes another one.
     pub(crate) fn choice(&mut self, count: u32) -> u32 {
         if self.one_in(40) { self.pick(&[count, 99, u32::MAX]) } else { self.below(count as usize) as u32 }
     }
 }
 
-/// Handles that callers share: those that live, by kind, and those that were freed.
+/// Handles that callers share: the live ones by kind, and those that were freed.
 pub(crate) struct Pool {
     live: [Mutex<Vec<usize>>; KINDS],
     freed: Mutex<Vec<usize>>,
-    /// Whether other threads free handles, too, so that none is sure to live.
+    /// Whether other threads free handles, too. Then no handle is certain to be live.
     is_shared: bool,
 }
 
-/// The most freed handles that are remembered.
+/// How many freed handles the pool keeps at most.
 const FREED: usize = 64;
 
-/// The handles of each kind that a shared pool keeps.
+/// How many live handles of each kind a shared pool keeps.
 const KEPT: usize = 8;
 
 impl Pool {
@@ -87,7 +87,7 @@ impl Pool {
         (!live.is_empty()).then(|| live[random.below(live.len())])
     }
 
-    /// Notes that a handle was freed as one of `kind`, which it may not be.
+    /// Notes that a handle was freed as one of `kind`. The handle may be of another kind.
     pub(crate) fn note_freed(&self, kind: usize, handle: usize) {
         let mut live = self.live[kind].lock().unwrap();
         if let Some(place) = live.iter().position(|other| *other == handle) {
@@ -120,7 +120,7 @@ impl Pool {
     }
 }
 
-/// A text as the library takes it.
+/// A text as the library takes it: a pointer and a length.
 pub(crate) struct Text {
     bytes: Vec<u8>,
     is_null: bool,
@@ -136,12 +136,12 @@ impl Text {
     }
 }
 
-/// Makes calls with handles, texts and numbers by chance.
+/// Makes calls with random handles, texts and numbers.
 pub(crate) struct Caller<'a> {
     pub(crate) random: Random,
     pool: &'a Pool,
     folder: &'a Path,
-    /// Whether the call that is made has nothing that the library is sure to refuse.
+    /// Whether the call has no argument so far that the library has to refuse.
     is_sound: bool,
 }
 
@@ -163,8 +163,8 @@ impl<'a> Caller<'a> {
         status
     }
 
-    /// A handle of a kind: mostly one that lives, else one that was freed, that is of another kind,
-    /// that is none, that is null.
+    /// A handle of a kind: mostly a live one, and sometimes one that was freed, one of another
+    /// kind, a number that is no handle, or null.
     pub(crate) fn handle<K: Kind>(&mut self) -> *mut K {
         let wrong = self.random.below(32);
         if wrong > 3 {
@@ -182,7 +182,7 @@ impl<'a> Caller<'a> {
         })
     }
 
-    /// A handle as `handle` gives it, or null, which is right here.
+    /// A handle as `handle` gives it, or null, which is valid here.
     pub(crate) fn handle_or_null<K: Kind>(&mut self) -> *mut K {
         let (was_sound, handle) = (self.is_sound, self.handle::<K>());
         if handle.is_null() || self.random.one_in(2) {
@@ -192,7 +192,7 @@ impl<'a> Caller<'a> {
         handle
     }
 
-    /// A handle that lives. One is made where there is none.
+    /// A live handle. If there is none, it is made.
     pub(crate) fn live<K: Kind>(&mut self) -> *mut K {
         if let Some(handle) = self.pool.any(K::NUMBER, &mut self.random) {
             return without_provenance_mut(handle);
@@ -206,7 +206,8 @@ impl<'a> Caller<'a> {
         made
     }
 
-    /// Calls with a place for a new handle, which is kept, or now and then with none.
+    /// Makes `call` with a pointer to which it writes a new handle, and keeps the handle. Sometimes
+    /// the pointer is null.
     pub(crate) fn out<K: Kind>(&mut self, call: impl FnOnce(*mut *mut K) -> texere_status) -> texere_status {
         if self.random.one_in(40) {
             self.is_sound = false;
@@ -221,7 +222,7 @@ impl<'a> Caller<'a> {
         status
     }
 
-    /// Calls with a place for a value, or now and then with none.
+    /// Makes `call` with a pointer to a value, or sometimes with null.
     pub(crate) fn place<T>(&mut self, value: T, call: impl FnOnce(*mut T) -> texere_status) -> texere_status {
         let mut value = value;
         if self.random.one_in(40) {
@@ -234,13 +235,14 @@ impl<'a> Caller<'a> {
     /// Frees a handle.
     pub(crate) fn free<K: Kind>(&mut self) -> texere_status {
         let handle: *mut K = self.handle();
-        // Forgotten first: another thread may draw it otherwise after it was freed.
+        // The pool forgets the handle first. Otherwise another thread might draw it after it was
+        // freed.
         self.pool.note_freed(K::NUMBER, handle.addr());
         free(K::NUMBER, handle.addr());
         TEXERE_OK
     }
 
-    /// A struct of zeros that says its size, or now and then another one.
+    /// A struct of zeros with its size set, or sometimes with another size.
     pub(crate) fn sized<T>(&mut self) -> T {
         let mut size = size_of::<T>() as u32;
         if self.random.one_in(40) {
@@ -253,7 +255,7 @@ impl<'a> Caller<'a> {
         value
     }
 
-    /// One of `texts`, or now and then none, or what is no text.
+    /// One of `texts`, or sometimes a null pointer, or bytes that are no text.
     pub(crate) fn text(&mut self, texts: &[&str]) -> Text {
         let wrong = self.random.below(60);
         if wrong > 1 {
@@ -264,7 +266,7 @@ impl<'a> Caller<'a> {
         Text { bytes, is_null: wrong == 1 }
     }
 
-    /// The path of one of the files `names` in the test's folder, or of none that there is.
+    /// The path of one of the files `names` in the test's folder, or an invalid path.
     pub(crate) fn path(&mut self, names: &[&str]) -> Text {
         let mut text = self.text(names);
         if !text.is_null && text.bytes[0] != 0xff {
@@ -275,7 +277,8 @@ impl<'a> Caller<'a> {
         text
     }
 
-    /// As many values as a call asks for, or now and then another number, which has to be refused.
+    /// The number of values that a call needs, or sometimes another number, which the call has to
+    /// refuse.
     pub(crate) fn count(&mut self, needed: u64) -> u64 {
         if self.random.one_in(20) {
             self.is_sound = false;

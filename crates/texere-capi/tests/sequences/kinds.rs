@@ -1,4 +1,4 @@
-//! The kinds of handles: how one is made, and how it is freed.
+//! The kinds of handles: how a handle of each kind is made, and how it is freed.
 
 use std::ptr::{null, null_mut, without_provenance_mut};
 
@@ -9,9 +9,9 @@ use crate::operations::{DESIGNS, read};
 
 /// A kind of handle.
 pub(crate) trait Kind: Sized {
-    /// Its number among all kinds.
+    /// The number of the kind among all kinds.
     const NUMBER: usize;
-    /// Makes one, of small parts that live; null where that fails.
+    /// Makes a handle from small live objects. It is null if that fails.
     fn make(caller: &mut Caller<'_>) -> *mut Self;
 }
 
@@ -30,7 +30,7 @@ macro_rules! kinds {
             }
         })*
 
-        /// Frees a handle as one of a kind.
+        /// Frees a handle with the function of this kind, whatever kind it is of.
         pub(crate) fn free(kind: usize, handle: usize) {
             match kind {
                 // SAFETY: handles are looked up.

@@ -1,16 +1,16 @@
-//! Random sequences of calls: whatever a program does with the library, no call panics, hangs or
-//! takes what it has to refuse.
+//! Random sequences of calls. Whatever a program does with the library, no call panics, hangs or
+//! accepts an argument that it has to refuse.
 //!
-//! A seed is printed; `TEXERE_SEED` makes the calls of one again. `TEXERE_SEQUENCES` says how many
-//! sequences there are:
+//! The test prints its seed. With `TEXERE_SEED` set to a seed it makes the same calls again.
+//! `TEXERE_SEQUENCES` says how many sequences it makes:
 //!
 //! ```sh
 //! TEXERE_SEQUENCES=1000 valgrind --leak-check=full --errors-for-leak-kinds=definite \
 //!     target/debug/deps/sequences-* --exact one_thread
 //! ```
 //!
-//! A new function of the library needs an operation in `operations.rs`, and a new kind of handle a
-//! line in `kinds.rs`.
+//! A new function of the library needs an operation in the folder `operations`, and a new kind of
+//! handle needs a line in `kinds.rs`.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -35,18 +35,19 @@ use caller::{Caller, Pool, Random};
 use operations::{Operation, operations};
 use watchdog::Watched;
 
-/// Sequences of one thread by itself, unless the environment says otherwise: more than a hundred
-/// thousand calls.
+/// How many sequences one thread makes by itself, unless `TEXERE_SEQUENCES` says otherwise. They
+/// have more than a hundred thousand calls.
 const SEQUENCES: u64 = 20_000;
 
-/// The most calls of a sequence.
+/// The largest number of calls of a sequence.
 const CALLS: usize = 12;
 
-/// Threads that share their handles, and how many times fewer sequences all of them make.
+/// The number of threads that share their handles. All of them together make fewer sequences than
+/// one thread by itself, by the factor `FEWER`.
 const THREADS: u64 = 8;
 const FEWER: u64 = 10;
 
-/// How many times fewer sequences work on a GPU.
+/// The factor by which fewer sequences are made on a GPU.
 const FEWER_ON_GPU: u64 = 1000;
 
 fn main() -> ExitCode {
@@ -80,21 +81,21 @@ fn complete() -> Result<(), Failed> {
     if missing.is_empty() { Ok(()) } else { Err(format!("no operation calls {missing:?}").into()) }
 }
 
-/// How often each function succeeded, and how often it did not.
+/// How often each function succeeded, and how often it failed.
 type Ends = BTreeMap<&'static str, [u64; 2]>;
 
 fn one_thread(seed: u64, count: u64) -> Result<(), Failed> {
     let (table, mut ends) = (chosen(|operation| !operation.on_gpu), Ends::new());
     let (watched, folder) = (Watched::new(seed), tempfile::tempdir()?);
     for number in 0..count {
-        // Each sequence has a pool of its own, so that it can be made again without the others.
+        // Each sequence has a pool of its own and can therefore be repeated without the others.
         let pool = Pool::new(false);
         sequence(&table, Random::of(seed, number), &pool, folder.path(), &watched, &mut ends);
         pool.free_all();
     }
     let calls: u64 = ends.values().flatten().sum();
     println!("{count} sequences of {calls} calls");
-    // Few sequences may miss a function.
+    // A small number of sequences may not call every function.
     if count < SEQUENCES {
         return Ok(());
     }
@@ -156,7 +157,7 @@ fn chosen(which: impl Fn(&Operation) -> bool) -> Vec<Operation> {
     operations().into_iter().filter(which).collect()
 }
 
-/// Makes a sequence of calls, and checks how each of them ends.
+/// Makes a sequence of calls. `Caller::call` checks how each of them ends.
 fn sequence(
     table: &[Operation],
     random: Random,

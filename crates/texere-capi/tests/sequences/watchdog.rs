@@ -1,4 +1,5 @@
-//! The watchdog: a call that does not end, or that fails a check, is told with what led to it.
+//! The watchdog: if a call does not end, or fails a check, it prints the seed and the calls that
+//! led to it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -12,7 +13,7 @@ const LIMIT: Duration = Duration::from_secs(300);
 /// How often the watchdog looks.
 const LOOKS: Duration = Duration::from_secs(1);
 
-/// The sequence that a thread makes.
+/// The sequence of calls that a thread makes.
 #[derive(Debug)]
 pub(crate) struct Watched {
     seed: u64,
@@ -23,12 +24,12 @@ pub(crate) struct Watched {
 struct Sequence {
     random: String,
     calls: Vec<&'static str>,
-    /// When the last call began, where one is under way.
+    /// When the call began that is under way, if there is one.
     since: Option<Instant>,
 }
 
 impl Watched {
-    /// What a thread does from now on, with a watchdog of its own.
+    /// Starts a watchdog for the calls of a thread.
     pub(crate) fn new(seed: u64) -> Arc<Self> {
         let sequence = Sequence { random: String::new(), calls: Vec::new(), since: None };
         let watched = Arc::new(Self { seed, sequence: Mutex::new(sequence) });

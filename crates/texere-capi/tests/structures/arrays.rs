@@ -1,4 +1,4 @@
-//! Structures by arrays, and texts of the same cloths.
+//! Designs as arrays, and texts of the same designs.
 
 use std::ptr::null;
 
@@ -14,7 +14,7 @@ pub(crate) fn diameter(tex: f64, density: f64) -> f64 {
     diameter_mm
 }
 
-/// 500 turns a metre, Z.
+/// Twist of 500 turns per metre, Z, in radians per mm.
 pub(crate) const TWIST: f32 = (500.0 * std::f64::consts::TAU / 1000.0) as f32;
 
 pub(crate) fn materials() -> [texere_material; 2] {
@@ -46,7 +46,7 @@ pub(crate) fn section(shape: u32) -> texere_section {
 pub(crate) const YARNS: &str = "[yarns.a]\ntex = 30.0\ndensity = 0.9\ntwist_per_m = 500.0\ncolor = \"#ff8001\"\n\
     [yarns.\"bé\"]\ndiameter_mm = 0.25\ncolor = \"#010203\"\nsection = { shape = \"ellipse\", aspect = 1.5 }\n";
 
-/// A woven design, whose arrays live as long as `call` runs.
+/// Calls `call` with a woven design as arrays, which live as long as the call.
 pub(crate) fn with_woven<T>(
     change: impl FnOnce(&mut texere_woven),
     call: impl FnOnce(&texere_woven) -> T,
@@ -65,7 +65,7 @@ pub(crate) fn with_woven<T>(
     let warp: Vec<_> = (0..11).map(|end| if end % 3 == 2 { other } else { none }).collect();
     let weft: Vec<_> =
         (0..9).map(|pick| texere_thread { spacing_mm: [0.5, 0.7][pick % 2], ..none }).collect();
-    // A 2/2 right-hand twill, in rows of two bytes that lie three apart.
+    // A 2/2 right-hand twill, in rows of two bytes. Rows begin three bytes apart.
     let up = |end: usize, pick: usize| (end + 4 - pick % 4) % 4 < 2;
     let mut bits = [0xee_u8; 27];
     for (pick, row) in bits.chunks_mut(3).enumerate() {
@@ -101,7 +101,7 @@ pub(crate) fn woven_text() -> String {
     )
 }
 
-/// The chart of the tests: a cable, and under it a tuck and a miss.
+/// The chart of the tests: a cable, and below it a tuck and a miss.
 pub(crate) const STITCHES: [(u32, i32); 12] = [
     (TEXERE_STITCH_KNIT, 0),
     (TEXERE_STITCH_KNIT, 0),
@@ -128,7 +128,7 @@ pub(crate) fn knit_yarns() -> [texere_knit_yarn; 2] {
     [none, texere_knit_yarn { diameter_mm: 0.25, twist: 0.0, material: 1, section: 1, ..none }]
 }
 
-/// A weft knit of these stitches, whose arrays live as long as `call` runs.
+/// Calls `call` with a weft knit of these stitches as arrays, which live as long as the call.
 pub(crate) fn with_weft<T>(
     stitches: &[(u32, i32)],
     change: impl FnOnce(&mut texere_weft_knit),
@@ -157,7 +157,7 @@ pub(crate) fn with_weft<T>(
     call(&knit)
 }
 
-/// A warp knit of two bars, whose arrays live as long as `call` runs.
+/// Calls `call` with a warp knit of two bars as arrays, which live as long as the call.
 pub(crate) fn with_warp<T>(
     change: impl FnOnce(&mut texere_warp_knit, &mut [texere_bar; 2], &mut [texere_lap; 2]),
     call: impl FnOnce(&texere_warp_knit) -> T,

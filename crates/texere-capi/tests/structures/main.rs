@@ -1,4 +1,5 @@
-//! Structures by arrays are the designs that texts of them are; what is wrong with them is named.
+//! Designs from arrays have the same yarns as designs from texts, and a refusal names the array and
+//! the value.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -75,7 +76,7 @@ fn woven_cloth_by_arrays_is_that_of_its_text() {
     assert_eq!(made, TEXERE_OK, "{}", message());
     let text = read(&woven_text());
     same(design, &text);
-    // As files, too: written by C and read by Rust, they give the same yarns.
+    // Files that C writes and Rust reads give the same yarns, too.
     let folder = tempfile::tempdir().unwrap();
     for (name, settled) in [("c.toml", true), ("c.wif", false)] {
         let path = folder.path().join(name);
@@ -104,7 +105,7 @@ fn weft_knits_by_arrays_are_those_of_their_texts() {
     let text = "[knit]\nchart = \"\"\"\nRRrrkp\nkkkktm\"\"\"\nrepeat = [2, 1]\nwales_per_cm = 8.0\n\
         courses_per_cm = 10.0\nyarns = [\"a\", \"2 bé\"]\n";
     same(design, &read(&format!("{text}{YARNS}")));
-    // On two beds, with loops of a length and equally many points for each.
+    // Two beds, a loop length, and the same number of control points for each stitch.
     let stitches = [
         (TEXERE_STITCH_KNIT, 0),
         (TEXERE_STITCH_BOTH, 0),
@@ -124,7 +125,7 @@ fn weft_knits_by_arrays_are_those_of_their_texts() {
     let text = "[knit]\nchart = \"\"\"\npu\nkb\"\"\"\nbeds = 2\nrepeat = [2, 1]\nwales_per_cm = 8.0\n\
         courses_per_cm = 10.0\nloop_length_mm = 4.0\ncells = \"even\"\nyarns = [\"a\"]\n";
     let text = read(&format!("{text}{YARNS}"));
-    // The text drops the yarn that is not knitted; its points are the same.
+    // The design from the text drops the yarn that is not knitted. Its control points are the same.
     let (mut cloth, mut yarns, mut counts) = (null_mut(), null_mut(), sized::<texere_yarn_counts>());
     let own = text.placed(0.0).unwrap();
     let mut points = vec![texere_point::default(); own.yarns().points().len()];
@@ -196,11 +197,11 @@ fn a_finish_is_that_of_its_text() {
     }
     let text = read(&format!("{finish}{text}"));
     assert!(saved(finished, true) == saved_by_rust(&text, true));
-    // The design that it was made from is as it was.
+    // The design from which the finished one was made is unchanged.
     assert!(saved(design, true) != saved(finished, true));
 }
 
-/// Whether a call is refused as an argument, in these words.
+/// Makes sure that a call failed with TEXERE_ARGUMENT and this message.
 fn refused(status: texere_status, words: &str) {
     assert_eq!(status, TEXERE_ARGUMENT, "{words}: {}", message());
     assert_eq!(message(), words);

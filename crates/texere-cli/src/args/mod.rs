@@ -11,8 +11,8 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
-pub(crate) use path::is_yarns;
 use path::{file_of, mesh_file};
+pub(crate) use path::{is_curves, is_yarns};
 use render::point;
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::{SettingsArgs, undersampled};
@@ -84,9 +84,9 @@ pub(crate) struct InspectArgs {
 pub(crate) struct CheckArgs {
     /// A .toml design, a .wif draft, or a .k program of a knitting machine
     pub(crate) design: PathBuf,
-    /// How much nearer than touching two yarns may come before they count as piercing, as a share.
-    /// Yarns whose control points are placed to touch come as near as 0.99 of touching between the
-    /// points
+    /// How much nearer than touching two yarns may come before they count as piercing, as a share
+    /// of the distance at which they touch. Between control points that are placed to touch, yarns
+    /// come as near as 0.99 of that distance
     #[arg(long, value_name = "SHARE", default_value_t = 0.015, value_parser = share)]
     pub(crate) accuracy: f64,
     #[command(flatten)]
@@ -101,8 +101,8 @@ pub(crate) struct MeshArgs {
     /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
     /// cloth
     pub(crate) design: PathBuf,
-    /// The file to write: .glb or .ply, or .yarns, which saves the cloth at rest without a mesh, so
-    /// that the cloth need not settle again
+    /// The file to write: .glb or .ply for a mesh; .bcc or .usda for the yarns' centrelines, as
+    /// curves for other programs; .yarns saves the cloth at rest, which need not settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl,

@@ -4,17 +4,25 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use texere::write::Format;
+use texere::write::{CurveFormat, Format};
 
 /// Whether a path names a file of saved yarns.
 pub(crate) fn is_yarns(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
 }
 
-/// The parser of a path that must have the ending of a mesh file or of saved yarns.
+/// Whether a path names a file of curves.
+pub(crate) fn is_curves(path: &Path) -> bool {
+    CurveFormat::from_path(path).is_ok()
+}
+
+/// The parser of a path whose ending must be that of a mesh, of curves or of saved yarns.
 pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match Format::from_path(&path) {
-        Err(error) if !is_yarns(&path) => Err(format!("{error}; and yarns, without a mesh")),
+        Err(error) if !is_yarns(&path) && !is_curves(&path) => {
+            let curves = CurveFormat::ALL.map(CurveFormat::extension).join(", ");
+            Err(format!("{error}; and without a mesh: {curves}, yarns"))
+        }
         _ => Ok(path),
     })
 }

@@ -8,19 +8,19 @@ use texere::{Settings, Yarns};
 /// What can be chosen about a mesh.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SettingsArgs {
-    /// Points inserted between two control points; if left out 1, or up to 63 where twist would
-    /// turn a section by more than 30 degrees from ring to ring: of plies, ellipses and polygons,
-    /// and in pictures of every yarn. Round yarns in meshes may turn by 90
+    /// Points inserted between two control points. If left out, 1, or up to 63 if twist would turn
+    /// a section too far from ring to ring. The limit is 90 degrees for round yarns in meshes, and
+    /// 30 degrees for other yarns and in pictures
     #[arg(long, value_name = "K")]
     pub(crate) subdivisions: Option<u32>,
-    /// Sides of the tube; if left out 6, or 16 in a picture of woven cloth at rest of up to four
-    /// million control points; a polygon has as many as corners
+    /// Sides of the tube. If left out, 6, or 16 in a picture of woven cloth at rest with up to four
+    /// million control points. The tube of a polygon has a side for each corner
     #[arg(long, value_name = "NC")]
     pub(crate) sides: Option<u32>,
-    /// Tension of the spline, 0 to below 1; if left out 0, or what saved yarns have
+    /// Tension of the spline, 0 to below 1. If left out, 0, or the tension of saved yarns
     #[arg(long, value_name = "U")]
     pub(crate) tension: Option<f32>,
-    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT,
+    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT[:DISTORTION],
     /// power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
@@ -30,7 +30,7 @@ pub(crate) struct SettingsArgs {
     #[arg(long, value_enum)]
     frame: Option<FrameArg>,
     /// How triangles are encoded in memory, which decides the bytes that `inspect` prints; indexed
-    /// if left out. Files hold the same triangles for each
+    /// if left out. Files hold the same triangles with each encoding
     #[arg(long, value_enum)]
     topology: Option<TopologyArg>,
     /// Close the ends of yarns; pictures always do
@@ -97,8 +97,8 @@ impl SettingsArgs {
         if self.subdivisions.is_some() { settings } else { settings.following(yarns) }
     }
 
-    /// The settings for a picture of `yarns`; `lies_close` is as [`texere::picture::picture_sides`]
-    /// takes it.
+    /// The settings for a picture of `yarns`. `lies_close` is whether they are flattened threads of
+    /// woven cloth at rest, see [`texere::picture::picture_sides`].
     pub(crate) fn of_picture(&self, yarns: &Yarns, lies_close: bool) -> Settings {
         let sides = self.sides.unwrap_or_else(|| texere::picture::picture_sides(yarns, lies_close));
         let settings = Settings { sides, ..self.settings() };
@@ -106,7 +106,7 @@ impl SettingsArgs {
     }
 }
 
-/// The warning of what a mesh of `yarns` does not show of their twist, if anything.
+/// A warning if a mesh of `yarns` has too few rings to show their twist, otherwise none.
 pub(crate) fn undersampled(yarns: &Yarns, settings: &Settings) -> Option<String> {
     Undersampled::of(yarns, settings).map(|found| found.to_string())
 }

@@ -14,8 +14,8 @@ use crate::fail::Fail;
 use crate::{drivers, progress};
 use plot::plot;
 
-/// The cloth of a design, with splines of `tension`. If the design or the command line lets its
-/// yarns come to rest, they do so on the device that `open` gives, and there is a report.
+/// The cloth of a design, with splines of `tension`. If its yarns settle, by the command line or
+/// else by the design, the device that `open` gives does the work, and there is a report.
 pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     mut design: Design,
     args: &SettlingArgs,

@@ -32,7 +32,7 @@ fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Outp
         .unwrap()
 }
 
-/// A cable of `half` loops over `half`.
+/// A design of a cable in which `half` loops cross over `half` other loops.
 fn cable(half: usize) -> String {
     let (plain, right, left) = ("k".repeat(2 * half), "R".repeat(half), "r".repeat(half));
     format!(

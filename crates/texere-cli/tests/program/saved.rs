@@ -28,6 +28,28 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
     }
 }
 
+/// Files of curves hold the control points of the cloth at rest. Writing them from saved yarns
+/// needs no device.
+#[test]
+fn curves_are_those_of_the_cloth_at_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let [design, saved, curves, stage] = ["cloth.toml", "cloth.yarns", "cloth.bcc", "cloth.usda"].map(path);
+    fs::write(&design, DESIGNS[0].1).unwrap();
+    for output in [&saved, &curves] {
+        let said = stdout(&texere(&["mesh", &design, "--device", "cpu", "-o", output]));
+        assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
+    }
+    let yarns = texere::read::yarns(&saved).unwrap().yarns;
+    let scale = texere::read::CurveScale { unit_mm: 1.0, diameter_mm: 0.1 };
+    let read = texere::read::curves(&curves, scale).unwrap();
+    let places = |yarns: &texere::Yarns| yarns.points().iter().map(|p| [p.x, p.y, p.z]).collect::<Vec<_>>();
+    assert!(places(&read) == places(&yarns));
+    // Nothing settles here, so a device that does not exist is not missed.
+    stdout(&texere(&["mesh", &saved, "-o", &stage, "--device", "none"]));
+    assert!(fs::read_to_string(&stage).unwrap().starts_with("#usda 1.0\n"));
+}
+
 /// Saved yarns keep the tension of their splines, unless the command line gives another.
 #[test]
 fn saved_cloth_keeps_its_tension() {
@@ -58,7 +80,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 15] = [
+    let cases: [(&[&str], i32, &str); 17] = [
         (&["inspect", &saved], 3, alone),
         (&["check", &saved], 3, alone),
         (&["draft", &saved, "--text"], 3, alone),
@@ -72,12 +94,22 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &saved, "-o", &ply, "--section", "circle"], 2, "--section needs a design"),
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
         (&["mesh", &design, "-o", &other, "--sides", "9"], 2, "--sides needs a mesh"),
+        (&["mesh", &saved, "-o", &path("cloth.usda"), "--sides", "9"], 2, "--sides needs a mesh"),
+        (
+            &["mesh", &saved, "-o", &path("cloth.bcc"), "--tension", "0.5"],
+            2,
+            "BCC can\'t hold splines of tension",
+        ),
         (&["mesh", &saved, "-o", &saved], 2, "which must stay"),
         (&["mesh", &design, "-o", &other, "--no-settle", "--tension", "1"], 2, "tension is 1, outside 0"),
         (&["mesh", &saved, "-o", &ply, "--tension", "nan"], 2, "tension is NaN, outside 0"),
         (&["mesh", &broken, "-o", &ply], 3, "byte 16: the length in bytes is"),
         (&["mesh", &path("none.yarns"), "-o", &ply], 1, "can't read"),
-        (&["mesh", &design, "-o", &path("cloth.obj")], 2, "there are: glb, ply; and yarns, without a mesh"),
+        (
+            &["mesh", &design, "-o", &path("cloth.obj")],
+            2,
+            "there are: glb, ply; and without a mesh: bcc, usda, yarns",
+        ),
     ];
     for (args, code, said) in cases {
         let output = texere(args);

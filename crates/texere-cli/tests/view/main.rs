@@ -72,7 +72,7 @@ impl Viewer {
             .arg(design)
             .env("DISPLAY", &screen.name)
             .env_remove("WAYLAND_DISPLAY")
-            // If this variable is set, drivers print warnings.
+            // Without this variable drivers print warnings, which the program must not show.
             .env_remove("XDG_RUNTIME_DIR")
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

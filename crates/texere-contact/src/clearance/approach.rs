@@ -1,5 +1,6 @@
 //! The places where two intervals of round yarns come nearest to one another, refined on the
-//! spline. A knot is a control point, at which one interval ends and the next begins.
+//! spline. A knot is a control point, at which one interval ends and the next begins. A parameter
+//! goes from 0 to 1 along an interval, so a difference of parameters is a length in intervals.
 
 use glam::{DMat2, DVec2, Vec2Swizzles};
 
@@ -106,8 +107,8 @@ fn ratio_of(a: &At, b: &At) -> f64 {
 /// The first parameter of an approach, if the approach belongs to its interval.
 ///
 /// At a knot within a yarn the earlier interval owns the approach if the distance clearly rises at
-/// the knot, because the minimum then lies before the knot. Both intervals have the same slope
-/// there, and an interval that
+/// the knot, because the minimum then lies before the knot. Both intervals find the same slope
+/// there, so exactly one of them owns the approach. An interval that
 /// [`Passing::leaves_to_neighbours`](super::passing::Passing::leaves_to_neighbours) leaves out
 /// never owns it.
 fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64> {
@@ -124,12 +125,13 @@ fn own(side: Side<'_>, other: Side<'_>, place: DVec2, ratio: f64) -> Option<f64>
 
 /// First and second derivatives of (|Δ|² - λ² (r₁ + r₂)²) / 2 at a place of two yarns.
 ///
-/// λ is the ratio at that place, so the function itself is 0 there.
+/// Δ is the vector between both places, and r₁ and r₂ are the radii there. λ is the ratio at that
+/// place, so the function itself is 0 there.
 struct Slopes {
     gradient: DVec2,
     /// The mixed second derivative.
     across: f64,
-    /// The second derivatives by each parameter, plus what makes the function convex.
+    /// The second derivatives by each parameter, plus the addition that makes the function convex.
     bent: DVec2,
     /// The squared speeds of both curves.
     flat: [f64; 2],
@@ -205,8 +207,8 @@ impl Slopes {
 /// Newton's method on (distance / sum of radii)². Returns the parameters, the ratio, and the least
 /// curvature before the last step.
 ///
-/// The method minimises |Δ|² - λ² (r₁ + r₂)², whose least value is 0 if λ is the least ratio
-/// (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
+/// The method minimises |Δ|² - λ² (r₁ + r₂)² (see [`Slopes`]), whose least value is 0 if λ is the
+/// least ratio (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967).
 fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> (DVec2, f64, f64) {
     let held_at = |place: DVec2| DVec2::new(one.held(place.x), other.held(place.y));
     let at = |place: DVec2| (one.cubic.at(place.x), other.cubic.at(place.y));

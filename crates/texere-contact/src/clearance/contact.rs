@@ -10,8 +10,8 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 /// The least ratio at which surfaces do not pierce one another.
 ///
 /// Splines through points at which round threads just touch come as near as 0.987 between the
-/// points (poplin, docs/SETTLING.md). Woven cloth at rest is brought to 0.986. With a limit of 0.99
-/// both would be faults.
+/// points (poplin, docs/BENCHMARKS.md). Woven cloth at rest is brought to 0.986. With a limit of
+/// 0.99 both would be faults.
 pub const CLEAR: f64 = 0.985;
 
 /// The accuracy of a ratio. Yarns at a ratio of 0.999 count as touching.
@@ -49,9 +49,9 @@ pub const CLEARANCE_BIN: f64 = 0.01;
 pub struct Contact {
     /// The two places, the lower yarn first.
     pub places: [YarnPlace; 2],
-    /// The factor by which both sections could grow until their surfaces touch. It is 1 if they
-    /// just touch, and less if they pierce. For round yarns it is the distance of the centrelines
-    /// over the sum of the radii. A section counts with all that lies between its centre and its
-    /// outline.
+    /// The factor by which both sections could grow until their surfaces touch. It is 1 if the
+    /// surfaces just touch, and less if they pierce. For round yarns it is the distance of the
+    /// centrelines over the sum of the radii. A section counts with all that lies between its
+    /// centre and its outline.
     pub ratio: f64,
 }

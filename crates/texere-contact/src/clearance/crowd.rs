@@ -10,7 +10,7 @@ use crate::grid::Bounds;
 /// A place that is not measured because its yarns lie in one another many times over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crowd {
-    /// The place on the thickest yarn there, nearest to the middle.
+    /// The place on the thickest yarn there that is nearest to the middle of the crowd's box.
     pub place: YarnPlace,
     /// Thickness of that yarn, mm: its diameter, or the larger of width and height.
     pub thickness_mm: f64,
@@ -65,7 +65,7 @@ impl Crowd {
         })
     }
 
-    /// Upper bound of the least ratio in the crowd, infinite if none is known.
+    /// Upper bound of the least ratio in the crowd, infinite if no bound is known.
     pub(super) fn ratio_max(&self) -> f64 {
         if self.fill > 1.0 { self.fill.sqrt().recip() } else { f64::INFINITY }
     }

@@ -74,8 +74,8 @@ impl Part {
         [u.length_squared(), u.dot(v), middle, v.dot(w), w.length_squared()]
     }
 
-    /// The cross product of velocity and acceleration, of degree two. The lengths of its
-    /// coefficients are the coefficients of an upper bound of its length.
+    /// The cross product of velocity and acceleration, of degree two. The lengths of the product's
+    /// coefficients are the coefficients of an upper bound of the product's length.
     fn turn(&self) -> [DVec3; 3] {
         let [u, v, w] = self.velocity;
         [2.0 * u.cross(v), u.cross(w), 2.0 * v.cross(w)].map(|turn| turn / self.length)
@@ -199,8 +199,8 @@ impl Search<'_> {
         }
     }
 
-    /// How far the section reaches into the bend, mm. It is 0 or less if a polygon that does not
-    /// hold its axis lies on the outer side alone. Then no such bend folds the section.
+    /// How far the section reaches into the bend, mm. It is 0 or less if the section is a polygon
+    /// beside its axis, wholly on the outer side of the bend. The bend then can't fold the section.
     fn reach(&self, place: &Place) -> f64 {
         let sizes = place.sizes.max(self.floors);
         if self.support.is_circle() && sizes.x == sizes.y {

@@ -50,9 +50,9 @@ impl Extent {
     }
 
     /// Whether a plane shows that the surfaces are clear of one another with sections `near` times
-    /// as large. Two planes are tried. The first is at right angles to the line between the
-    /// middles, stretched as the normal of a flat thread's surface is. The second is at right
-    /// angles to the line itself.
+    /// as large. Two planes are tried. The second is at right angles to the line between the
+    /// middles. The first is at right angles to that line after its components are scaled as those
+    /// of a flat thread's normal: x and y by the squared height, z by the squared width.
     pub(super) fn is_clear_of(&self, other: &Self, near: f64) -> bool {
         let apart = other.middle - self.middle;
         let [wide, high] = [0, 1].map(|half| self.halves[half] + other.halves[half]);

@@ -1,4 +1,4 @@
-//! One control interval of a yarn: its cubic in double precision, and chords along the cubic.
+//! One control interval of a yarn: its cubic in double precision.
 
 use std::f64::consts::TAU;
 
@@ -7,14 +7,6 @@ use texere_core::ControlPoint;
 use texere_core::definitions::{RADIUS_FLOOR, up_between};
 
 use super::support::upright;
-
-/// The most chords of an interval.
-const CHORDS_MAX: usize = 12;
-
-/// How far an interval may lie from its chords, in radii of its yarn. The distance is small enough
-/// that every approach of two yarns is also an approach of their chords, and that refinement from
-/// there converges.
-pub(super) const SAGITTA: f64 = 0.1;
 
 /// The spline between two control points, as polynomials of t in \[0, 1\].
 #[derive(Debug, Clone, Copy)]
@@ -180,7 +172,7 @@ impl Cubic {
     }
 
     /// Upper bound of the squared distance between the interval and `count` chords, mm².
-    fn off_chords_squared(&self, count: usize) -> f64 {
+    pub(super) fn off_chords_squared(&self, count: usize) -> f64 {
         let [_, c1, c2, c3] = self.position;
         let step = 1.0 / count as f64;
         let mut most = 0.0_f64;
@@ -198,98 +190,6 @@ impl Cubic {
         }
         // The inner two of the four Bézier weights add up to 3/4 at most.
         0.5625 * most
-    }
-
-    /// Chords within [`SAGITTA`] of the curve, [`CHORDS_MAX`] at most.
-    pub(super) fn chords(&self) -> Chords {
-        let sagitta = SAGITTA * self.floors[0].min(self.floors[1]).max(f64::MIN_POSITIVE);
-        let mut count = 1;
-        while count < CHORDS_MAX {
-            // n chords lie about 1/n² as far from a curve as one does.
-            let times = (self.off_chords_squared(count).sqrt() / sagitta).sqrt();
-            if times <= 1.0 {
-                break;
-            }
-            count = ((count as f64 * times).ceil() as usize).clamp(count + 1, CHORDS_MAX);
-        }
-        let mut corners = [self.position[0]; CHORDS_MAX + 1];
-        for (k, corner) in corners.iter_mut().enumerate().take(count + 1).skip(1) {
-            *corner = self.position(k as f64 / count as f64);
-        }
-        let mut lengths = [0.0; CHORDS_MAX];
-        for (length, ends) in lengths.iter_mut().zip(corners.windows(2)).take(count) {
-            *length = ends[0].distance(ends[1]);
-        }
-        Chords { corners, lengths, count }
-    }
-}
-
-/// The corners of chords along an interval.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Chords {
-    corners: [DVec3; CHORDS_MAX + 1],
-    lengths: [f64; CHORDS_MAX],
-    count: usize,
-}
-
-impl Chords {
-    /// Calls `start` for each approach of the two polygons. An approach is a pair of chords nearer
-    /// than `within` and nearer than all pairs beside it. `start` gets the parameters at which the
-    /// chords come nearest, and the parameters of the chords' middles. With `edges`, a pair at an
-    /// end of an interval also counts if it is nearer than the pairs beside it along that end,
-    /// because an approach may lie further in.
-    pub(super) fn approaches(
-        &self,
-        other: &Self,
-        within: f64,
-        edges: bool,
-        mut start: impl FnMut([DVec2; 2]),
-    ) {
-        /// Entries of a row of pairs: one for each chord, and one more on each side.
-        const ROW: usize = CHORDS_MAX + 2;
-        let (rows, columns) = (self.count, other.count);
-        let mut near = [f64::INFINITY; ROW * ROW];
-        for row in 0..rows {
-            let one = self.chord(row);
-            for column in 0..columns {
-                let two = other.chord(column);
-                // Twice the distance of the middles, and twice how far both chords could reach from
-                // there.
-                let apart = (one[0] + one[1] - two[0] - two[1]).length_squared();
-                let reach = 2.0 * within + self.lengths[row] + other.lengths[column];
-                if apart <= reach * reach {
-                    near[(row + 1) * ROW + column + 1] = closest(one, two).0;
-                }
-            }
-        }
-        for row in 0..rows {
-            for column in 0..columns {
-                let own = (row + 1) * ROW + column + 1;
-                let here = near[own];
-                // If two pairs are equally near, the first counts.
-                let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
-                let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
-                let least_of = |before: &[usize], after: &[usize]| {
-                    before.iter().all(|place| near[*place] > here)
-                        && after.iter().all(|place| near[*place] >= here)
-                };
-                let on_edge = |at: usize, count: usize| edges && (at == 0 || at + 1 == count);
-                let least = least_of(&before, &after)
-                    || (on_edge(row, rows) && least_of(&[own - 1], &[own + 1]))
-                    || (on_edge(column, columns) && least_of(&[own - ROW], &[own + ROW]));
-                if here <= within * within && least {
-                    let (_, s, t) = closest(self.chord(row), other.chord(column));
-                    let at = |s: f64, t: f64| {
-                        DVec2::new((row as f64 + s) / rows as f64, (column as f64 + t) / columns as f64)
-                    };
-                    start([at(s, t), at(0.5, 0.5)]);
-                }
-            }
-        }
-    }
-
-    fn chord(&self, number: usize) -> [DVec3; 2] {
-        [self.corners[number], self.corners[number + 1]]
     }
 }
 

@@ -16,7 +16,7 @@ use crate::grid::Bounds;
 /// The most intervals ahead for which a yarn is tested to lead straight on.
 const LEAD: usize = 3;
 
-/// Number of control points from one entry of the stored ways to the next.
+/// Number of control points from one entry of [`ways`] to the next: a stride.
 const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);
@@ -38,9 +38,9 @@ pub(super) struct Line<'a> {
     ways: &'a [f64],
 }
 
-/// Way along the chords from the fabric's first control point to every 64th one, mm. The ways of
-/// consecutive yarns are added as if they were one yarn. The way between two points of a yarn is a
-/// difference of two entries and a few chords.
+/// Way along the chords from the fabric's first control point to every 64th control point, mm. The
+/// ways of consecutive yarns are added as if they were one yarn. The way between two points of a
+/// yarn is the difference of two entries, plus a few chords.
 pub(super) fn ways(points: &[ControlPoint]) -> Vec<f64> {
     let stride = |start: usize| -> f64 {
         let chords = points[start..points.len().min(start + STRIDE + 1)].windows(2);
@@ -132,8 +132,8 @@ impl<'a> Line<'a> {
         let whole = |point: ControlPoint| Vec4::new(point.x, point.y, point.z, point.half_width());
         let heights = [before, start, end, after].map(|point| point.half_height());
         let (before, start, end, after) = (whole(before), whole(start), whole(end), whole(after));
-        // The Bézier polygon holds the curve, for half widths too. Its inner two corners may lie on
-        // either side.
+        // The Bézier polygon holds the curve and its half widths. The polygon's inner two corners
+        // may lie outside the box of its ends, on any side.
         let s = self.s as f32 / 3.0;
         let (leaving, arriving) = (start + (end - before) * s, end - (after - start) * s);
         let (low, high) =
@@ -150,8 +150,8 @@ impl<'a> Line<'a> {
     /// a common knot at most.
     ///
     /// The test is whether the tangents lie within 45 degrees of one direction. Then no part of the
-    /// yarn leads back, and any two places that are π/2 times their reach apart along the yarn are
-    /// more than [`CLEARANCE_NEAR`] times their reach apart in space, whatever the section.
+    /// yarn leads back. Two places that lie π/2 times their reach apart along the yarn are more
+    /// than [`CLEARANCE_NEAR`] times their reach apart in space, whatever the section.
     pub(super) fn leads_on(&self, from: usize, to: usize) -> bool {
         if to - from > LEAD {
             return false;

@@ -2,8 +2,9 @@
 
 use std::cell::OnceCell;
 
+use super::chords::{SAGITTA, Usual};
 use super::extent::Extent;
-use super::interval::{Chords, Cubic};
+use super::interval::Cubic;
 use super::part::Part;
 use super::passing::Passing;
 use super::rolls::{IntervalRolls, Rolls};
@@ -14,7 +15,7 @@ use super::support::Support;
 #[derive(Default)]
 pub(super) struct Met {
     curve: OnceCell<Curve>,
-    chords: OnceCell<Chords>,
+    chords: OnceCell<Usual>,
     extent: OnceCell<Extent>,
 }
 
@@ -23,8 +24,8 @@ impl Met {
         self.curve.get_or_init(|| Curve::new(part, rolls))
     }
 
-    pub(super) fn chords(&self, curve: &Curve) -> &Chords {
-        self.chords.get_or_init(|| curve.cubic.chords())
+    pub(super) fn chords(&self, curve: &Curve) -> &Usual {
+        self.chords.get_or_init(|| Usual::of(&curve.cubic, SAGITTA))
     }
 
     pub(super) fn extent(&self, curve: &Curve, support: &Support) -> &Extent {

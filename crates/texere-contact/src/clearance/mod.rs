@@ -1,6 +1,7 @@
 //! Clearance: how near yarns come to one another and to themselves, and how tightly they bend.
 
 mod approach;
+mod chords;
 mod contact;
 mod crowd;
 mod curvature;
@@ -58,7 +59,8 @@ pub struct Clearance {
     /// each pair of control intervals.
     pub contacts: u64,
     /// Number of contacts whose ratio is below 1 by more than [`CLEARANCE_ACCURACY`]. Threads that
-    /// touch by construction have many, since splines between their control points come to 0.99.
+    /// touch by construction have many such contacts, since splines between their control points
+    /// come to 0.99.
     pub below_one: u64,
     /// Number of contacts that pierce: their ratio is below [`CLEAR`].
     pub piercing: u64,
@@ -86,8 +88,9 @@ pub struct Clearance {
 ///
 /// Surfaces are those of a mesh with `settings`, without its facets: sections stand on the spline
 /// with the roll and the flattening that they have on its rings. A ply that lies in another yarn's
-/// furrow touches where the surfaces do, not where their hulls would. Each pair of yarn parts
-/// within [`CLEARANCE_NEAR`] counts with its nearest approach.
+/// furrow touches where the surfaces do, not where their hulls would. A contact is a place where
+/// two yarns, or two parts of one, are nearer to one another than anywhere close by. Contacts up to
+/// the ratio [`CLEARANCE_NEAR`] count.
 ///
 /// Two places of one yarn count if they are at least π/2 times the sum of their radii apart along
 /// the chords between control points. Nearer places can only meet in a bend tighter than the yarn

@@ -73,8 +73,9 @@ impl Piece {
 /// if there is one.
 ///
 /// Two pieces are at least as far apart as their chords, minus each piece's distance from its
-/// chord. Pieces that may come nearer than `below` are halved. The search finds the nearer of two
-/// approaches in one valley, while the chords of the main search have only one approach there.
+/// chord. Pieces that may come nearer than `below` are halved. A valley is a stretch along which
+/// the distance hardly changes. If it holds two approaches, this search finds the nearer one, while
+/// the chords of the main search have only one approach there.
 pub(super) fn nearer(one: &Cubic, other: &Cubic, below: f64) -> Option<DVec2> {
     let [floor, other_floor] = [one, other].map(|cubic| cubic.floors()[0]);
     if below <= 0.0 {

@@ -10,6 +10,7 @@
 //! if a plane lies between them:     nothing
 //! for each approach of the chords:  keep its nearest place, refined
 //! while that lies in a valley:      keep a nearer place, if the hulls leave room for one
+//! if the yarn folds in the valley:  keep the nearest places of fine chords, refined
 //! ```
 
 use std::cell::Cell;
@@ -18,9 +19,10 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 
 use super::approach::{Side, refine};
+use super::chords::{Fine, SAGITTA, SAGITTA_FINE};
 use super::contact::{CLEARANCE_ACCURACY, Contact};
 use super::found::Found;
-use super::interval::{SAGITTA, closest};
+use super::interval::closest;
 use super::met::{Curve, Met};
 use super::nearer::nearer;
 use super::part::Part;
@@ -31,8 +33,8 @@ use super::tubes;
 use crate::ContactError;
 use crate::watch::Watch;
 
-/// The reach of a section, in lengths of its interval, from which the section counts by its hull
-/// alone, untwisted.
+/// A section that reaches more than this many lengths of its interval counts by its hull alone,
+/// untwisted.
 const DISC: f64 = 64.0;
 
 /// The greatest difference of two places that count as one, in intervals along either curve.
@@ -97,13 +99,13 @@ impl<'a> Pair<'a> {
                 ratio,
             });
         };
-        // Intervals of yarns that are so much thicker than their control points lie apart are
-        // discs. Only their hulls count.
+        // If a yarn is so much thicker than its control points lie apart, its intervals are discs.
+        // Only their hulls count.
         let discs = self.curves.into_iter().any(|curve| DISC * curve.cubic.length() < curve.reach);
         if !discs && self.surfaces().iter().any(|surface| !surface.is_simple()) {
             self.touching(add);
             // A pair like this takes as long as thousands of other pairs, so a request to stop is
-            // noticed at once.
+            // looked for after each.
             return watch.advance(0);
         }
         let round = self.curves[0].round && self.curves[1].round;
@@ -140,7 +142,7 @@ impl<'a> Pair<'a> {
         extent(0).is_clear_of(extent(1), self.near)
     }
 
-    /// Whether two places count as a contact. Places of one yarn do only if they are far enough
+    /// Whether two places count as a contact. Places of one yarn count only if they are far enough
     /// from one another along the yarn. Nearer places meet in a fold.
     fn is_apart(&self, place: DVec2) -> bool {
         let ([a, b], [one, other]) = (self.curves, self.parts);
@@ -184,10 +186,13 @@ impl<'a> Pair<'a> {
         let mut seen: Vec<DVec2> = Vec::new();
         let least = Cell::new(f64::INFINITY);
         let valley = Cell::new(false);
+        let lost = Cell::new(false);
         let refined = |start: DVec2| {
             let approach = refine(sides[0], sides[1], start);
             least.set(approach.ratio.min(least.get()));
             valley.set(valley.get() || approach.valley);
+            let kept = approach.own.is_some_and(|place| self.is_apart(place));
+            lost.set(lost.get() || !kept);
             approach.own.map(|place| (place, approach.ratio))
         };
         let mut keep = |(place, ratio): (DVec2, f64)| {
@@ -215,7 +220,7 @@ impl<'a> Pair<'a> {
                 keep(approach);
             }
         });
-        // The chords may have only one approach for two in one valley.
+        // Where the curves approach twice in one valley, the chords may have only one approach.
         while !discs && valley.get() {
             let known = least.get();
             let nearer = nearer(&a.cubic, &b.cubic, known.min(self.near) - CLEARANCE_ACCURACY);
@@ -224,6 +229,14 @@ impl<'a> Pair<'a> {
             if least.get() >= known {
                 break;
             }
+        }
+        // Where a yarn doubles back, the way downhill leads to a fold, which is no contact. A
+        // contact on that way may be too shallow for the usual chords.
+        if self.same && valley.get() && lost.get() {
+            let [first, second] = [a, b].map(|curve| Fine::of(&curve.cubic, SAGITTA_FINE));
+            first.approaches(&second, self.near * self.reach, true, |starts| {
+                refined(starts[0]).into_iter().for_each(&mut keep);
+            });
         }
     }
 }

@@ -5,8 +5,8 @@ use glam::DVec3;
 
 use super::interval::Cubic;
 
-/// The greatest slope that counts as level: half the slope of the squared distance at a knot, over
-/// the sum of both radii and the speed there.
+/// The greatest slope that counts as level. A slope is half the derivative of the squared distance
+/// at a knot, divided by the sum of both radii and by the speed there.
 ///
 /// The later interval owns a contact at a knot where the distance is level. The earlier interval
 /// may be left out if the slope is no more than this, the later one if the slope is more than twice
@@ -23,7 +23,8 @@ pub(super) struct Passing {
     /// The four corners of the interval's Bézier polygon.
     corners: [DVec3; 4],
     velocities: [DVec3; 3],
-    /// The coefficients of (A - start) · A', of degree five, with A the place on this interval.
+    /// The coefficients of (A - start) · A', of degree five. A is the place on this interval, and
+    /// A' its derivative.
     own: [f64; 6],
 }
 

@@ -179,9 +179,9 @@ impl IntervalRolls {
         self.at_rings.is_empty()
     }
 
-    /// Whether the frame is rotation-minimising. Rolls are then measured from the upright frame.
-    /// Otherwise they are measured from the frame along which the yarn is flattened, which may
-    /// lean.
+    /// Whether the frame is rotation-minimising. In such a frame rolls are measured from the
+    /// upright frame. In an upright frame they are measured from the frame along which the yarn is
+    /// flattened, which may lean.
     pub(super) fn is_carried(&self) -> bool {
         self.minimizing.is_some()
     }
@@ -200,8 +200,9 @@ impl IntervalRolls {
         let place = t * steps as f64;
         let before = (place.max(0.0) as usize).min(steps - 1);
         let (from, share) = (self.at_rings[before], place - before as f64);
-        // An upright frame may flip between two rings. A section in a rotation-minimising frame
-        // does not.
+        // Rolls are measured from the upright frame, which may flip between two rings. A section in
+        // a rotation-minimising frame does not flip, so its roll is computed at `t` instead of
+        // mixed from both rings.
         let carried = self.minimizing.and_then(|(twist, given_back)| {
             let [start, velocity, _] = cubic.path(before as f64 / steps as f64);
             let [end, end_velocity, _] = cubic.path(t);

@@ -21,8 +21,8 @@ use crate::ContactError;
 use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
-/// The most intervals of a cell that are compared in all pairs. A cell holds some 60 intervals of
-/// threads that are clear of one another, with one control point a crossing or several.
+/// The most intervals of a cell that are compared in all pairs. If threads are clear of one
+/// another, a cell holds some 60 intervals, with one control point a crossing or with several.
 pub(super) const FULL: usize = 256;
 
 /// Number of pairs between two reports of progress.
@@ -138,7 +138,7 @@ impl<'a> Probe<'a> {
         Ok(found)
     }
 
-    /// Adds all contacts of a cell with many intervals, or the crowd that the intervals are.
+    /// Adds all contacts of a cell with many intervals, or the crowd that the intervals form.
     ///
     /// A plane sweeps over the intervals. When it reaches an interval, that interval is compared
     /// with all others that the plane meets.

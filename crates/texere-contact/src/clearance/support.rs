@@ -154,10 +154,11 @@ impl Support {
         }
     }
 
-    /// The section's furthest point in `direction`, from the centre, mm. The yarn has the upright
-    /// frame `[side, up]`, and half width and half height `sizes`.
+    /// The section's furthest point in `direction`, from the centre, mm. The yarn is flattened
+    /// along `[side, up]`, to half width and half height `sizes`.
     pub(super) fn furthest(&self, [side, up]: [DVec3; 2], sizes: DVec2, direction: DVec3) -> DVec3 {
-        // Flattening stretches points one way and directions the inverse way.
+        // A point p of the section lies at side p.x sizes.x + up p.y sizes.y. Its reach in
+        // `direction` is therefore the dot product of p and `across`.
         let across = DVec2::new(direction.dot(side), direction.dot(up)) * sizes;
         let point = match self {
             Self::Circle => across.normalize_or_zero(),

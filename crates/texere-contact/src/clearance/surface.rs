@@ -1,4 +1,5 @@
-//! The surface of one interval as a mesh draws it: section, roll and flattening at every place.
+//! The surface of one interval as a mesh draws it: section, roll and flattening at every place. A
+//! place of an interval is *level* with a point if the plane of the section there holds the point.
 
 use std::f64::consts::TAU;
 
@@ -44,8 +45,9 @@ impl Stand {
         self.frame[0] * point.x + self.frame[1] * point.y
     }
 
-    /// `direction` in the coordinates of the section, once it is turned by its roll. Directions are
-    /// scaled inversely to points.
+    /// `direction` in the coordinates of the section after the section is turned by its roll: its
+    /// components along side and up, times half width and half height. Its dot product with a point
+    /// of the section is the point's reach along `direction`.
     fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
     }
@@ -82,14 +84,14 @@ impl Surface<'_> {
         stand.across(direction).length() * self.side.support.extent()
     }
 
-    /// The parameter near `t` of the place that is level with `point`: the plane of its section
-    /// holds `point`.
+    /// The parameter near `t` of the place that is level with `point`.
     pub(super) fn level_with(&self, point: DVec3, mut t: f64) -> f64 {
         for _ in 0..STEPS {
             let [position, velocity, acceleration] = self.side.cubic.path(t);
             let apart = point - position;
             let (along, flat) = (apart.dot(velocity), velocity.length_squared());
-            // Near the centre of a bend and beyond, the step is that of a straight line.
+            // If the point lies near the centre of curvature or beyond it, the step is that of a
+            // straight line.
             let bent = flat - apart.dot(acceleration);
             let step = along / if bent > 0.1 * flat { bent } else { flat + f64::MIN_POSITIVE };
             let next = (t + step).clamp(-STRAY, 1.0 + STRAY);

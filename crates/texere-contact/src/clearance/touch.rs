@@ -17,8 +17,8 @@
 //!             best = min(best, growth after a descent along the yarn and round it)
 //! ```
 //!
-//! Sections that neither turn nor have lobes need one descent only, from the place where their
-//! tubes touch ([`touch_near`]).
+//! Sections that neither turn nor have lobes need one descent only. It starts where the straight
+//! tubes along both tangents touch (see [`tubes`] and [`touch_near`]).
 
 use std::f64::consts::TAU;
 
@@ -51,10 +51,10 @@ const RELIEF: f64 = 1e-3;
 const SECTIONS_MAX: usize = 4096;
 
 /// A descent starts at a place if the growth there exceeds the least growth so far by no more than
-/// this share. A lobe rises by as much between two places.
+/// this share. A lobe may rise by as much between two places that are tried.
 const SLACK: f64 = 0.015;
 
-/// The number of starts and ends of descents from which on [`SLACK`] no longer counts. Then a
+/// Once this many starts and ends of descents are known, [`SLACK`] no longer counts. From then on a
 /// descent starts only at a place whose growth is less than the least so far.
 const PLACES: usize = 16;
 
@@ -345,10 +345,10 @@ impl<F: Fn(DVec2) -> bool> Search<'_, F> {
         if count.is_finite() { (count.ceil() as usize).clamp(4, SECTIONS_MAX) } else { SECTIONS_MAX }
     }
 
-    /// The growth with which the other surface meets a point of a section grown by `growth`, less
-    /// `growth`, and the parameter of that place. None if the point is out of the other surface's
-    /// reach at `growth`, if the place belongs to another interval, or if the other yarn has no
-    /// direction there.
+    /// How much more than `growth` both sections must grow for the other surface to meet this point
+    /// of the section, and the parameter of that place. None if the point is out of the other
+    /// surface's reach at `growth`, if the place belongs to another interval, or if the other yarn
+    /// has no direction there.
     fn excess(&self, stand: &Stand, way: DVec3, growth: f64, beside: f64) -> Option<(f64, f64)> {
         let (needed, other) = self.surfaces[1].growth_at(stand.centre + growth * way, beside, growth)?;
         Some((needed - growth, other))

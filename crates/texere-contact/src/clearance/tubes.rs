@@ -1,5 +1,5 @@
-//! The places where two intervals come nearest to one another, with each replaced by the straight
-//! tube along its tangent.
+//! The places where two intervals come nearest to one another, with each interval replaced by the
+//! straight tube along its tangent.
 //!
 //! The result is close to that of the true surfaces if the sections neither turn nor have lobes,
 //! and a few steps suffice.
@@ -54,10 +54,10 @@ struct Touch {
 /// Moves both places from `start` to where the tubes touch. None if the places leave their
 /// intervals, or if nothing touches.
 ///
-/// Straight tubes touch where their common normal is N = t₁ × t₂. Scaled by λ = N·Δ / (h₁(N) +
-/// h₂(-N)), with h the sections' support functions, their surfaces meet in one point. On bent tubes
-/// that point must lie in the sections at both places. The places move towards the point until it
-/// does.
+/// Straight tubes along the tangents t₁ and t₂ have the common normal N = t₁ × t₂. Let Δ lead from
+/// the first centre to the second, and let h₁ and h₂ be the sections' support functions. Scaled by
+/// λ = N·Δ / (h₁(N) + h₂(-N)), both surfaces meet in one point. On bent tubes that point must lie
+/// in the sections at both places. The places move towards the point until it does.
 pub(super) fn nearest(one: Side<'_>, other: Side<'_>, start: DVec2) -> Option<Nearest> {
     let mut place = DVec2::new(one.held(start.x), other.held(start.y));
     let meeting = Meeting::new(one, other, place)?;
@@ -149,7 +149,8 @@ impl<'a> Meeting<'a> {
         let normal = if cross.dot(apart) < 0.0 { -cross / sine } else { cross / sine };
         let (reach, [on_a, on_b]) = self.reach(normal);
         let ratio = normal.dot(apart) / reach;
-        // The way from one surface's point to the other's, as α t₁ - β t₂.
+        // The way from one surface's point to the other's. It is α times the first tangent minus β
+        // times the second.
         let left = apart + ratio * (on_b - on_a);
         let cosine = tangent_a.dot(tangent_b);
         let (along_a, along_b) = (left.dot(tangent_a), left.dot(tangent_b));
@@ -158,9 +159,9 @@ impl<'a> Meeting<'a> {
         Touch { ratio, offset: DVec2::new(alpha, beta) / self.speeds(), normal }
     }
 
-    /// The touch of yarns side by side, along the direction that separates them best, with both
-    /// places level. The ratio is a linear function of the direction over a convex one, and
-    /// therefore has one maximum.
+    /// The touch of yarns side by side, along the direction that separates them best, across the
+    /// first yarn. The way along the yarns goes into the offset. The ratio is a linear function of
+    /// the direction over a convex one, and therefore has one maximum.
     fn beside(&self) -> Touch {
         let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
         let along = apart.dot(tangent);

@@ -11,9 +11,10 @@ use crate::grid::Bounds;
 const LIMIT: u64 = 1 << 29;
 
 /// The copies of an interval's box that are searched: the copy that begins within the first repeat,
-/// and earlier copies that still reach into the first repeat. If any copies of two boxes meet,
-/// exactly one of the pairs that meet consists of searched copies of which, along each axis, one
-/// begins within the first repeat.
+/// and earlier copies that still reach into the first repeat. If copies of two boxes meet, both
+/// copies moved by the same number of repeats meet as well. Exactly one of these pairs consists of
+/// searched copies and has, along each axis, a copy that begins within the first repeat. Only that
+/// pair is compared.
 #[derive(Debug)]
 pub(super) struct Images {
     /// Lengths of the repeat along x and y, mm. A length is 0 if nothing repeats along that axis.

@@ -38,7 +38,7 @@ const TASK: usize = 1024;
 /// both windows before is compared with the integral after. The yarns have passed if the integral
 /// has changed by more than [`LINKING_CHANGE`]. In cloth that is bent, stretched, sheared or rolled
 /// up, it changes by 0.13 at most. If an end changes sides, or a stitch is dropped or pulled, it
-/// changes by 0.86 to 1.03 (0.8 half a pitch from an edge).
+/// changes by 0.86 to 1.03, and half a pitch from the cloth's edge by 0.8.
 ///
 /// A window has eight control intervals, or reaches five diameters each way if that is more. It
 /// holds a crossing and the yarn on both sides of it, and is too short for passages to cancel out.
@@ -54,11 +54,11 @@ const TASK: usize = 1024;
 /// compared in any case. For yarns that are shifted, bent or stretched together, or slide beside
 /// one another, no integral is computed.
 ///
-/// Two pieces of one yarn count like pieces of two yarns if their windows are apart. A yarn may
-/// slip past another at its cut end. With a repeat in `boundary`, yarns meet the copies of other
-/// yarns, and windows go on over the edge. Points of `after` must be where they have moved to, and
-/// must not be brought back into the repeat. Only centrelines are compared, so sections don't
-/// matter.
+/// Two pieces of one yarn count like pieces of two yarns if their windows are apart. A yarn that
+/// slips past a cut end has passed through nothing. With a repeat in `boundary`, yarns meet the
+/// copies of other yarns, and windows go on over the edge. Points of `after` must be where they
+/// have moved to, and must not be brought back into the repeat. Only centrelines are compared, so
+/// sections don't matter.
 ///
 /// Time grows with the control points and with how far they have moved. A million control points
 /// take half a second on two cores if they have moved little, one second if they have moved half a
@@ -139,7 +139,8 @@ fn compared(
     boundary.check(before.layout())?;
     let shapes = Shapes::new(before, after, boundary)?;
     let points = before.points().len() as u64;
-    // Intervals that were not near before but met on the way have moved far, and may be near after.
+    // Intervals that were not near before but met on the way have moved far. They may be near
+    // after, so the shapes after are searched as well.
     let searches: &[Shape] =
         if shapes.any_is_far() { &[Shape::Before, Shape::After] } else { &[Shape::Before] };
     let watch = Watch::new(searches.len() as u64 * SEARCH, progress);

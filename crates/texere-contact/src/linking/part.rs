@@ -70,7 +70,7 @@ impl Part {
     }
 
     /// Whether the two intervals may have met on a straight way from the one shape to the other, or
-    /// have moved too far to say.
+    /// have moved too far for their distances to tell.
     pub(super) fn may_have_passed(&self, other: &Self) -> bool {
         let apart = self.sagitta + other.sagitta;
         let [before, after] = [0, 1].map(|shape| self.corners[shape][1] - other.corners[shape][1]);

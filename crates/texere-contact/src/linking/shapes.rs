@@ -42,7 +42,7 @@ pub(super) struct Motion {
 
 impl Motion {
     /// Whether the interval has moved further than its margin. If two intervals have met without
-    /// being near before, at least one of them has moved so far.
+    /// being near before, at least one of them has moved further than its margin.
     pub(super) fn is_far(&self) -> bool {
         self.moved > self.margin
     }
@@ -157,8 +157,8 @@ impl<'a> Shapes<'a> {
     /// The motion of interval `number` against the mean motion `shift`.
     ///
     /// Two places that meet on a straight way are no further from one another before than they move
-    /// against one another. The margin is the interval's motion, up to the length that matters to
-    /// windows.
+    /// against one another. The margin is the interval's motion, but at most a quarter of half a
+    /// window.
     fn measure(&self, number: usize, shift: Vec3A) -> Motion {
         let (yarn, interval) = self.yarn_of(number);
         let strands = self.strands(yarn);
@@ -170,8 +170,8 @@ impl<'a> Shapes<'a> {
         let moved = moved.fold(0.0, f32::max).sqrt();
         let half = strands.iter().map(|strand| strand.half(interval)).fold(0.0, f32::max);
         let length = before[0].distance(before[1]) + before[1].distance(before[2]);
-        // The margin is at most a quarter of half a window. The linking integral of windows at
-        // twice that distance is a third of a passage's.
+        // The linking integral of two windows that lie a quarter of a window apart is a third of
+        // that of a passage.
         let most = (WINDOW_INTERVALS as f32 / 8.0 * length).max(WINDOW_REACH as f32 / 2.0 * half);
         Motion { moved, margin: moved.min(most) }
     }

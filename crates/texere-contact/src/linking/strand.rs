@@ -10,7 +10,7 @@ use texere_core::{ControlPoint, Ends};
 pub(super) struct Strand<'a> {
     pub(super) points: &'a [ControlPoint],
     pub(super) ends: Ends,
-    /// The vector from one round to the next, mm.
+    /// The vector from a control point to its copy in the yarn's next round, mm.
     pub(super) onward: DVec3,
     /// The factor of the spline's tangents.
     pub(super) s: f64,

@@ -6,8 +6,8 @@ use texere_core::Ends;
 use super::passage::{WINDOW_INTERVALS, WINDOW_REACH};
 use super::strand::Strand;
 
-/// Number of chords of a window. With twice as many, no change of the integral differs by more than
-/// 0.01, and with half as many by no more than 0.02.
+/// Number of chords of a window. With twice as many chords no change of the integral differs by
+/// more than 0.01, and with half as many none differs by more than 0.02.
 const CHORDS: usize = 2 * WINDOW_INTERVALS;
 
 /// The corners of a window's chords.

@@ -145,14 +145,14 @@ impl CrossingsPlan {
         self.repeats
     }
 
-    /// Whether each level of both sets is a layer of the cloth. It is if both sets have the same
-    /// number of levels, and more than one.
+    /// Whether each level of both sets is a layer of the cloth. This holds if both sets have the
+    /// same number of levels, and more than one.
     #[must_use]
     pub const fn is_layered(&self) -> bool {
         self.is_layered
     }
 
-    /// Whether both threads of a crossing belong to different layers.
+    /// Whether the two threads of a crossing belong to different layers.
     ///
     /// **Panics** past the last crossing.
     #[must_use]

@@ -13,8 +13,8 @@ pub struct CrossingThread {
     pub stiffness: f32,
     /// The level among the threads of its set, 0 for the lowest. Threads of one level lie side by
     /// side, and threads of different levels above or below one another. The picks of a double
-    /// cloth alternate between two levels. If warp and weft have the same number of levels, a level
-    /// of both is a layer of the cloth.
+    /// cloth alternate between two levels. If warp and weft have the same number of levels, and
+    /// more than one, the ends and picks of a level are a layer of the cloth.
     pub level: u32,
 }
 

@@ -7,8 +7,7 @@ use crate::backend::room;
 const BESIDE_MAX: i32 = 16;
 
 /// The largest shift sideways: a quarter of a unit, or two fifths of the distance to the nearer
-/// neighbour if that is less. Without bounds, threads pass through one another, or the steps stop
-/// short.
+/// neighbour if that is less. Without bounds, threads pass through one another.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// A thread. Lengths are in the plan's unit.
@@ -52,7 +51,7 @@ impl Site {
 }
 
 /// Number `at` moved on by `by` among `count` threads. If the threads repeat, the first follows the
-/// last. Otherwise there is none before the first or after the last.
+/// last. If they do not repeat, there is none before the first or after the last.
 pub(super) fn further(at: usize, by: i32, count: usize, repeats: bool) -> Option<usize> {
     let to = at.wrapping_add_signed(by as isize);
     if to < count {

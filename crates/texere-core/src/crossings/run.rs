@@ -29,8 +29,8 @@ pub struct CrossingsRest {
 /// device together with it, ten at most.
 ///
 /// In the first fifty passes, threads grow from four tenths of their area, and the penalties that
-/// keep them apart harden. More passes follow until the cloth is at rest, as many as the problem
-/// allows. The device gets as many passes at once as are certainly needed to reach rest.
+/// keep them apart harden. More passes follow until the cloth is at rest, at most as many as the
+/// problem allows. The device gets as many passes at once as are certainly needed to reach rest.
 ///
 /// **Errors**: [`BackendError`] of the device, and [`BackendError::OutOfMemory`] of the host.
 pub fn settle(

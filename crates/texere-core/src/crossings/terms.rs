@@ -292,8 +292,8 @@ impl Here<'_> {
     }
 
     /// Adds the clearance of a thread that stays on its side between two crossings `way` apart. If
-    /// it slopes, it must clear the shoulder of the thread under its upper end. This crossing is
-    /// the second of the two if `second`, otherwise the first.
+    /// it slopes, it must clear the shoulder of the thread under its upper end. `second` says
+    /// whether this crossing is the second of the two.
     fn shoulder(&self, block: &mut CrossingBlock, sites: [Site; 2], way: f32, second: bool) {
         let crossed = self.set.other();
         let [first, last] = sites.map(|site| self.crossing(site));
@@ -334,8 +334,8 @@ impl Here<'_> {
         }
     }
 
-    /// Adds the clearance of a thread that changes sides between two crossings `way` apart. This
-    /// crossing is the second of the two if `second`, otherwise the first.
+    /// Adds the clearance of a thread that changes sides between two crossings `way` apart.
+    /// `second` says whether this crossing is the second of the two.
     fn passage(&self, block: &mut CrossingBlock, [first, last]: [Site; 2], way: f32, second: bool) {
         let side = self.plan.side(first, self.set);
         let crossed = self.set.other();

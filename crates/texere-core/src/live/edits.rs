@@ -150,8 +150,8 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     }
 
     /// The rings affected by control points `own` of `yarn`, counted from its first. If the plan
-    /// needs a scan, the whole yarn is affected, because a turn at one place turns the rest. The
-    /// whole yarn also counts if it is closed or if attributes are made.
+    /// needs a scan, the whole yarn is affected, because a change of roll at one place turns all
+    /// rings behind it. The whole yarn also counts if it is closed or if attributes are made.
     fn rings_of(&self, yarn: usize, own: &Range<usize>) -> Range<u32> {
         let rings = self.plan.rings(yarn);
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;

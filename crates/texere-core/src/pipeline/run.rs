@@ -33,7 +33,7 @@ pub(super) enum Points<'a> {
 }
 
 /// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
-/// program that has a plan and its chunks already uses a run in place of a
+/// program that already has a plan and its chunks can use a run instead of a
 /// [`Pipeline`](crate::Pipeline), which plans and cuts each time.
 ///
 /// ```
@@ -54,6 +54,8 @@ pub(super) enum Points<'a> {
 /// ```
 pub struct Run<'a> {
     plan: Arc<Plan>,
+    /// Those that chunks are cut to.
+    limits: Limits,
     session: Session,
     progress: OnProgress<'a>,
     /// Rings delivered so far.
@@ -93,8 +95,9 @@ impl<'a> Run<'a> {
         limits: &Limits,
         progress: OnProgress<'a>,
     ) -> Result<Self, PipelineError> {
-        let session = Session::new(device, plan.clone())?.with_limits(limits);
-        let mut run = Self { plan, session, progress, done: 0 };
+        let limits = limits.min(&device.info().limits);
+        let session = Session::new(device, plan.clone())?.with_limits(&limits);
+        let mut run = Self { plan, limits, session, progress, done: 0 };
         match points {
             Points::Settled(settler) => {
                 run.session.take_settled(settler)?;
@@ -111,6 +114,18 @@ impl<'a> Run<'a> {
         }
         run.watched(Session::scan_watched)?;
         Ok(run)
+    }
+
+    /// The plan.
+    #[must_use]
+    pub const fn plan(&self) -> &Arc<Plan> {
+        &self.plan
+    }
+
+    /// The limits that the plan is cut to: those that were given, and those of the device.
+    #[must_use]
+    pub const fn limits(&self) -> Limits {
+        self.limits
     }
 
     /// The session, for stages one by one.

@@ -10,7 +10,8 @@ pub const BLOCK_RINGS: u32 = 64;
 /// kernel reads a block's yarn from the row, without a search.
 ///
 /// **Shape**: eight `u32`, 32 bytes. `first_ring` is counted from the yarn's start, and all other
-/// starts from that of the chunk or of its window.
+/// starts from that of the chunk or of its window. The window is the range of padded control points
+/// that the chunk reads.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Block {

@@ -143,9 +143,9 @@ impl Plan {
         })
     }
 
-    /// The furthest reach of the section of `yarn` from its centre, in half widths or half heights:
-    /// first in any direction, then along the frame's up, or again in any direction if the yarn
-    /// turns.
+    /// The furthest reach of the section of `yarn` from its centre, in half widths or half heights.
+    /// The first value is the reach in any direction. The second is the reach along the frame's up,
+    /// or again in any direction if the yarn turns.
     pub(crate) fn reach(&self, yarn: usize) -> [f32; 2] {
         let outline = self.outline(self.yarn(yarn).section as usize);
         let most = |reach: fn(f32, f32) -> f32| {

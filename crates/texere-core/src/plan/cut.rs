@@ -8,8 +8,8 @@ use super::{BLOCK_RINGS, Block, Limits, Plan};
 use crate::definitions::Ring;
 use crate::{ControlPoint, PlanError, Topology, Vertex};
 
-/// Windows start at multiples of this number of control points. It is 256 bytes, an offset that
-/// every device allows for a binding.
+/// A chunk's window is the range of padded control points that it reads. Windows start at multiples
+/// of this number of points: 256 bytes, an offset that every device allows for a binding.
 pub const WINDOW_POINTS: u64 = 16;
 
 /// The counts of a chunk that are compared with [`Limits`].
@@ -163,8 +163,8 @@ impl<'a> Chunks<'a> {
         let per_interval = u64::from(self.plan.settings().subdivisions) + 1;
         let start = self.plan.padded_offsets()[yarn];
         let end = self.plan.padded_offsets()[yarn + 1];
-        // The ring after the last one falls in interval (first + count) / (K + 1), which reads four
-        // points.
+        // The ring after the last one falls in interval (first + count) / per_interval, which reads
+        // four points.
         let last = (u64::from(first) + u64::from(count)) / per_interval + 4;
         start + self.first_interval(yarn, first)..(start + last).min(end)
     }

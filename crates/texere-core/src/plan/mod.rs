@@ -40,7 +40,7 @@ use rayon::prelude::*;
 
 use crate::definitions::{Ring, SIDES_MAX, Sample, Sampling, Turn};
 use crate::section::{SIDES_MIN, triangulate};
-use crate::{ControlPoint, Frame, Layout, Section, SectionPoint, Yarn};
+use crate::{ControlPoint, Frame, Layout, Section, SectionPoint, Topology, Yarn};
 
 /// The counts and offsets of a fabric for one choice of settings.
 ///
@@ -151,6 +151,27 @@ impl Plan {
         plan.counts = plan.count();
         plan.needs_scan = (0..plan.layout.yarns().len()).any(|yarn| plan.turns(yarn));
         Ok(plan)
+    }
+
+    /// The same plan with triangles in another encoding. Its chunks are its own.
+    ///
+    /// ```
+    /// use texere_core::backend::Plan;
+    /// use texere_core::{ControlPoint, Settings, Topology, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// let plan = Plan::new(yarns.build()?.layout().clone(), Settings::default())?;
+    /// let bare = plan.with_topology(Topology::None);
+    /// assert_eq!((plan.counts().indices, bare.counts().indices), (144, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_topology(&self, topology: Topology) -> Self {
+        let mut plan = self.clone();
+        plan.settings.topology = topology;
+        plan.id = PlanId::next();
+        plan.counts = plan.count();
+        plan
     }
 
     /// Whether the tables of `chunk` fit this plan's offsets. They do if `chunk` was cut from this

@@ -22,8 +22,8 @@ pub(crate) fn triangulate(outline: &[SectionPoint]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The place in `left` of the corner to cut. Its triangle holds no other corner, and has the
-/// largest area for its longest side squared, which avoids slivers.
+/// The place in `left` of the corner to cut. Its triangle holds no other corner, and its area
+/// divided by its longest side squared is largest, which avoids slivers.
 fn sharpest_ear(outline: &[SectionPoint], left: &[u32]) -> usize {
     let count = left.len();
     let at = |place: usize| {

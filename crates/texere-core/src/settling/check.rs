@@ -55,8 +55,8 @@ pub(super) fn scale(settling: &Settling<'_>) -> Result<Scale, SettlingError> {
     let origin = ((low + high) / 2.0).round().with_z(0.0);
     let thinnest = points.iter().map(|point| 2.0 * point.half_width().min(point.half_height()));
     let diameter = thinnest.fold(f32::INFINITY, f32::min);
-    // A yarn that goes on reaches beyond its first and last points by the whole way to its next
-    // round.
+    // A repeating yarn reaches beyond its first and last control points by as much as its next copy
+    // is moved.
     let [x, y] = settling.boundary.repeat().map(f64::from);
     let onward = settling.boundary.ends().iter().map(|ends| match ends {
         Ends::Repeats([right, up]) => (f64::from(*right) * x).abs().max((f64::from(*up) * y).abs()),

@@ -133,8 +133,8 @@ impl Pair<'_> {
 
 impl Approach {
     /// The direction from the first interval's place to the second's. If both places are one, the
-    /// direction is at right angles to both yarns, and the opposite one for the second interval. If
-    /// the yarns are parallel there, too, it is +z.
+    /// direction is at right angles to both yarns, and with the two intervals exchanged it is the
+    /// opposite one. If the yarns are also parallel there, the direction is +z.
     #[must_use]
     #[inline]
     pub(super) fn direction(&self, velocities: [Vec3; 2]) -> Vec3 {

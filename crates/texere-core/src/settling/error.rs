@@ -39,7 +39,7 @@ pub enum SettlingError {
     #[error("a cloth of {extent} mm is too large to settle with yarns of {diameter} mm")]
     TooLarge {
         /// The distance along one axis from the cloth's middle to its furthest point, plus the
-        /// longest way to a next repeat or round, mm.
+        /// greater of the repeat's length and the way to a yarn's next copy, mm.
         extent: f32,
         /// The thinnest yarn's diameter, mm.
         diameter: f32,

@@ -3,7 +3,7 @@
 /// The lengths that settling aims for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Length {
-    /// Every interval keeps its length, so that no yarn is drawn along its own path.
+    /// Every interval keeps its length, so that no yarn slides along its own path.
     Held,
     /// Every interval gets this multiple of its length at the start, 0.5 to 2.
     Given(f32),

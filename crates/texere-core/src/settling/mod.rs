@@ -1,5 +1,5 @@
 //! Settling of yarns by their contacts. Control points move until yarns nowhere pierce one another,
-//! nowhere fold, and have the length that is asked for.
+//! nowhere fold, and have the lengths that [`Settling::length()`] sets.
 //!
 //! A [`Settling`] is the problem, a [`SettlingPlan`] holds its tables, a [`Settler`] makes the
 //! passes on a device, and [`settle`] calls the settler until the yarns are at rest. All devices

@@ -56,7 +56,7 @@ pub struct SettlingCounts {
 }
 
 /// The counts, tables and places of a settling. Slices have [`SettlingCounts::places`] elements
-/// unless their docs say otherwise.
+/// unless their docs state another number.
 #[derive(Debug, Clone)]
 pub struct SettlingPlan {
     pub(crate) scale: Scale,

@@ -4,7 +4,7 @@ use super::Length;
 use crate::{Boundary, ControlPoint, Layout, Yarns};
 
 /// Yarns that are to come to rest. At rest they nowhere pierce one another, nowhere fold, and have
-/// the length that is asked for.
+/// the lengths that [`Settling::length()`] sets.
 ///
 /// ```
 /// use texere_core::settling::{Settling, SettlingPlan};
@@ -71,8 +71,8 @@ impl<'a> Settling<'a> {
         self
     }
 
-    /// Sets the largest number of passes of either form at full thickness, 1 to a million. One pass
-    /// that measures the start and forty in which yarns grow come before.
+    /// Sets the largest number of passes of either form at full thickness, 1 to a million. Before
+    /// these come one pass that measures the start, and forty passes in which yarns grow.
     #[must_use]
     pub const fn passes(mut self, passes: u32) -> Self {
         self.passes = passes;

@@ -26,8 +26,8 @@ const STEP_PASSES: u32 = 4;
 /// is 0.
 const EASES: [f32; 2] = [0.3, 0.6];
 
-/// The largest random move of a point along each axis at the start, in diameters. Symmetric yarns
-/// could otherwise balance at places that are not at rest.
+/// The largest random move of a point along each axis at the start, in diameters. Without these
+/// moves, symmetric yarns could balance at places that are not at rest.
 const JITTER: f32 = 0.01;
 
 /// The distance, divided by the sum of both reaches, from which on yarns count as clear.
@@ -36,12 +36,12 @@ const CLEAR: f32 = 0.995;
 /// The least radius of curvature at rest, as a share of [`BEND_RADIUS`].
 const BENT: f32 = 0.99;
 
-/// The largest difference at rest of an interval's length from the length asked for, as a share of
-/// the latter.
+/// The largest difference at rest between an interval's length and the length that it aims for, as
+/// a share of the length that it aims for.
 const LENGTH: f32 = 0.01;
 
-/// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was.
-/// Otherwise the weighted form has stalled.
+/// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was. If
+/// it falls less, the weighted form has stalled.
 const STALLS: u32 = 20;
 
 /// The share to which the lack must fall within [`STALLS`] passes.
@@ -71,7 +71,7 @@ pub struct Rest {
 /// breaks off, the best places so far are left.
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
-/// weighted form are made until the yarns are at rest, the form stalls, or there may be no more.
+/// weighted form are made until the yarns are at rest, the form stalls, or the plan allows no more.
 /// Passes of the block form follow, at most as many as there may be of the weighted form at full
 /// thickness.
 ///

@@ -19,8 +19,8 @@ pub struct SettlingSeen {
     pub clearance: f32,
     /// The least radius of curvature, in diameters of the yarn.
     pub radius: f32,
-    /// The largest difference of an interval's length from the length asked for, as a share of the
-    /// latter.
+    /// The largest difference between an interval's length and the length that it aims for, as a
+    /// share of the length that it aims for.
     pub length: f32,
 }
 

@@ -39,8 +39,9 @@ impl SettlingYarn {
         self.ends.intervals(self.points as usize) as u32
     }
 
-    /// The number of repeats, along x and y, by which the yarn's next round is moved. It is 0 for a
-    /// closed yarn, and `None` for an open one.
+    /// A yarn goes on at its first control point or at a copy of it. This is the number of repeats,
+    /// along x and y, by which that copy is moved. It is 0 for a closed yarn, and `None` for an
+    /// open one.
     #[must_use]
     pub const fn shift(&self) -> Option<[i32; 2]> {
         match self.ends {

@@ -33,6 +33,10 @@ pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: Mes
     let (maker, table) = (&maker, table.as_ref());
     mesh_runs(chunk, settings.sides, indexed, &mut out)
         .into_par_iter()
+        // A core that is done takes single runs from the others. In the groups that rayon makes by
+        // itself cores waited for the last group: a mesh took 4 % longer on sixteen cores, 6 % on
+        // two.
+        .with_max_len(1)
         .for_each(|run| set.run(MeshJob { maker, table, streams, run }));
     caps(work, chunk, out);
 }

@@ -34,7 +34,8 @@ pub struct Cure {
     pub remedy: Remedy,
     /// The least clearance with the change, at the places that were the worst.
     pub clearance: f64,
-    /// The tightest bend at these places: its radius over how far the section reaches into it.
+    /// The tightest bend at these places: its radius over the distance by which the section reaches
+    /// into the bend.
     pub curvature: f64,
     /// Faults that the change does not cure.
     pub leaves: Vec<ClothFault>,
@@ -147,8 +148,8 @@ fn worst_crossings(faults: &Faults) -> Vec<Crossing> {
     let mut places: Vec<_> =
         [crowded, pierced, folded, jammed, wrung, turned].into_iter().flatten().collect();
     if places.is_empty() {
-        // No worst place lies at a crossing. Turns of the weft, for example, are all alike. The
-        // first crossing stands for them.
+        // No worst place lies at a crossing. All of them may lie in turns of the weft, for example.
+        // Turns are alike, so the turns near the first crossing stand for all.
         places.push(Crossing { end: 1, pick: 1 });
     }
     places
@@ -238,8 +239,8 @@ impl Trial<'_> {
         Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
-    /// Circular sections for all threads, if the cloth has another section. Otherwise the least
-    /// flatness of all threads that cures.
+    /// Circular sections for all threads, if the cloth has another section. If all sections are
+    /// circles, the least flatness of all threads that cures.
     fn flatter(&self) -> Option<Cure> {
         let mut changed = self.cloth.clone();
         if self.cloth.sections().iter().any(|section| *section != Section::Circle) {
@@ -282,9 +283,8 @@ impl Trial<'_> {
         self.better(changed).filter(|outcome| outcome.leaves.is_empty())
     }
 
-    /// The measures of `changed`, if at least one kind of fault is gone. Jams are looked for
-    /// everywhere, most other faults at the worst places. The pieces of the cloth count as
-    /// unchanged.
+    /// The measures of `changed`, if at least one kind of fault is gone. Jams are looked for in the
+    /// whole cloth, other faults at the worst places. The pieces of the cloth count as unchanged.
     fn better(&self, changed: &Woven) -> Option<Outcome> {
         let mut left = Faults { jams: changed.jams(), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);

@@ -32,7 +32,8 @@ pub struct Faults {
     /// Contacts that pierce, worst first, at most
     /// [`CONTACTS_LISTED`](texere_contact::CONTACTS_LISTED).
     pub pierces: Vec<ThreadContact>,
-    /// The tightest bend, if its radius is less than the section reaches into it.
+    /// The tightest bend, if its radius is less than the distance by which the section reaches into
+    /// the bend.
     pub folds: Option<ThreadBend>,
     /// Threads that lie too close together.
     pub jams: Option<Jams>,
@@ -49,7 +50,8 @@ pub struct Faults {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ClothFault {
-    /// A place holds several times as much yarn as there is room for.
+    /// A place holds so much yarn, or so many parts of yarns, that contacts are not measured there:
+    /// see [`Crowd::fill`](texere_contact::Crowd::fill).
     Crowded,
     /// Threads pierce one another, or themselves.
     Pierces,

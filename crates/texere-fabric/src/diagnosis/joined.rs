@@ -3,8 +3,9 @@
 //!
 //! The method is union-find. Each yarn points to another yarn of its piece, and along these
 //! pointers to the root of the piece. A pointer also keeps the copy of the repeat in which the
-//! other yarn lies. A root keeps all ways from copy to copy that lead back to the same piece. These
-//! ways form a lattice, from which the pieces in any number of copies are counted.
+//! other yarn lies. A piece may come back to its own yarn in another copy of the repeat. The root
+//! keeps the ways to all such copies. The ways form a lattice, from which the pieces in any number
+//! of copies are counted.
 
 /// Number of copies along x and y from one yarn to another.
 type Shift = [i64; 2];

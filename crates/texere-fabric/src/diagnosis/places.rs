@@ -1,5 +1,6 @@
-//! Clearance and bends, with places named as weavers do by thread and crossing. In a knit, places
-//! are named by thread and stitch, or by thread alone.
+//! Clearance and bends, with places named as weavers do by thread and crossing. In a knit,
+//! [`Structure::place`](crate::Structure::place) names a place by thread and stitch, and clearance
+//! names it by thread alone.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -84,7 +85,7 @@ impl ThreadContact {
 pub struct ThreadCrowd {
     /// A place on the thickest thread of the crowd.
     pub place: ThreadPlace,
-    /// Twice the radius of the thickest thread, mm.
+    /// The diameter of the thickest thread, or the larger of its width and its height, mm.
     pub thickness_mm: f64,
     /// Distance from the thickest thread to the thread before it, or from the first thread to the
     /// second, mm. `None` in a knit.
@@ -119,8 +120,8 @@ pub struct ThreadDrawn {
     pub inwards_at: Option<ThreadPlace>,
 }
 
-/// [`Clearance`](texere_contact::Clearance), with places named by thread, and by crossing in woven
-/// cloth or by stitch in a knit. It also has the faults of the mesh.
+/// [`Clearance`](texere_contact::Clearance), with places named by thread, and in woven cloth by
+/// crossing, too. It also has the faults of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClothClearance {
     /// See [`Clearance::min`](texere_contact::Clearance::min).
@@ -189,8 +190,8 @@ impl ThreadPlace {
 }
 
 impl ClothClearance {
-    /// The least clearance: infinite where no yarns come near one another, NaN where all places are
-    /// crowded, since these are not measured.
+    /// The least clearance. It is infinite if no yarns come near one another, and NaN if all places
+    /// where they do are crowded, since crowded places are not measured.
     #[must_use]
     pub const fn least(&self) -> f64 {
         if self.crowd.is_some() && self.min.is_infinite() { f64::NAN } else { self.min }

@@ -19,8 +19,8 @@ pub enum Verdict {
     /// Yarns of a knit have the lengths that they should have, unless lengths are free, and keep
     /// their linking.
     AtRest,
-    /// Yarns of a knit keep their linking but have no room: even the block form of settling did not
-    /// bring them to rest.
+    /// Yarns of a knit keep their linking but have no room. Even the passes of the block form, the
+    /// second form of settling by contact, did not bring them to rest.
     Jammed,
     /// A condition of [`Verdict::AtRest`] is not met, and the yarns are not
     /// [jammed](Verdict::Jammed).
@@ -72,8 +72,8 @@ impl Settled {
 }
 
 impl WovenRest {
-    /// The verdict, measured on surfaces as they are drawn. Threads that still move a little may be
-    /// at rest.
+    /// The verdict, measured on surfaces as they are drawn. Threads may be at rest though they
+    /// still move a little from pass to pass.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if is_clear(self.clearance[1], self.bend) { Verdict::AtRest } else { Verdict::NotAtRest }

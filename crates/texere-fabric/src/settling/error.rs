@@ -10,8 +10,8 @@ use crate::FabricError;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FinishError {
-    /// The structure's yarns can't be made, or the settled yarns can't be measured. It holds
-    /// [`FabricError::Cancelled`] if the progress callback asked to stop.
+    /// The structure's yarns can't be made, or the settled yarns can't be measured. The variant
+    /// holds [`FabricError::Cancelled`] if the progress callback asked to stop.
     #[error(transparent)]
     Fabric(#[from] FabricError),
     /// Yarns that can't be settled as asked.
@@ -31,8 +31,8 @@ pub enum FinishError {
         /// `a length`, `a press` or `a course`.
         asked: &'static str,
     },
-    /// Woven cloth that can't be stretched so far, or draw in so far, while its threads keep their
-    /// lengths.
+    /// Woven cloth that can't be made as long as was asked for while its threads keep their
+    /// lengths. The threads would be straight before, or the cloth would jam before.
     #[error(
         "cloth can't be {by} times as long along its {along} while its threads keep their lengths: these are straight at {most:.4}, and jam where it draws in too far"
     )]

@@ -3,6 +3,7 @@
 
 mod error;
 mod finished;
+mod look;
 mod piece;
 mod repeat;
 mod settled;
@@ -16,18 +17,20 @@ use texere_core::{Backend, Layout, Settings, YarnPlace, Yarns};
 
 pub use self::error::FinishError;
 pub use self::finished::Finished;
+pub(crate) use self::look::Look;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;
 pub use self::settled::{Finish, Press, Settled};
 
+use self::look::tell;
 use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
-/// The share of the progress at which the passes end.
+/// The share of the progress at which all passes have been made.
 const PASSED: f64 = 0.9;
-/// The share of the progress at which the comparison ends that tells whether yarns have passed
-/// through one another.
+/// The share of the progress at which the start and the end have been compared, to find yarns that
+/// have passed through one another.
 const COMPARED: f64 = 0.95;
 
 /// Lets the yarns of `piece` settle on `backend`. They move until they nowhere pierce one another,
@@ -69,6 +72,7 @@ pub fn settle(
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
+    tell(&mut progress, 0.0)?;
     let plan = SettlingPlan::new(&piece.settling(finish)).map_err(|source| {
         match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
             Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
@@ -76,10 +80,12 @@ pub fn settle(
         }
     })?;
     let plan = Arc::new(plan);
+    tell(&mut progress, 0.0)?;
     let mut settler = backend.settler(Arc::clone(&plan))?;
+    tell(&mut progress, 0.0)?;
     let (mut course, mut stopped) = (Vec::new(), false);
-    // The progress counts with at most `finish.passes` passes of each form. Settling may make 41
-    // more: one that measures the start, and forty in which yarns grow.
+    // The progress assumes at most `finish.passes` passes of each of the two forms of settling.
+    // Settling may make 41 more passes: one that measures the start, and forty in which yarns grow.
     let (mut made, most) = (0.0, 2.0 * f64::from(finish.passes));
     let rest = settling::settle(&plan, settler.as_mut(), |pass, seen| {
         if finish.record {
@@ -95,9 +101,11 @@ pub fn settle(
     }
     let points = settling::settled(&plan, settler.as_mut(), piece.yarns.points())?;
     drop(settler);
+    tell(&mut progress, PASSED)?;
 
     let settings = Settings::default();
     let moved = piece.moved(&points).map_err(FabricError::from)?;
+    tell(&mut progress, PASSED)?;
     let linking = linking_with_progress(&piece.yarns, &moved, &piece.boundary, |done| {
         progress(PASSED + (COMPARED - PASSED) * done)
     })?;
@@ -122,13 +130,14 @@ const SETTLED: f64 = 0.8;
 /// makes.
 pub(crate) fn settle_repeat(
     repeat: &Repeat,
-    placed: impl FnOnce(&Yarns) -> Result<Yarns, FabricError>,
+    placed: impl FnOnce(&Yarns, Look<'_>) -> Result<Yarns, FabricError>,
     finish: &Finish,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<Settled, FinishError> {
     let mut settled = settle(&repeat.piece, finish, backend, |done| progress(SETTLED * done))?;
-    let yarns = placed(&settled.yarns)?;
+    let yarns = placed(&settled.yarns, &mut || tell(&mut progress, SETTLED))?;
+    tell(&mut progress, SETTLED)?;
     let settings = Settings::default();
     settled.clearance =
         clearance_with_progress(&yarns, &settings, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
@@ -139,8 +148,8 @@ pub(crate) fn settle_repeat(
     Ok(Settled { yarns, ..settled })
 }
 
-/// `place`, on a yarn of the repeat, as the same place on the first yarn of `placed` with the same
-/// origin.
+/// `place` lies on a yarn of the repeat. The result is the same place on the first yarn of `placed`
+/// that has the same origin.
 fn placed_at(place: &YarnPlace, repeat: &Layout, placed: &Layout) -> YarnPlace {
     let origin = repeat.yarns()[place.yarn].origin;
     let yarn = placed.yarns().iter().position(|yarn| yarn.origin == origin);

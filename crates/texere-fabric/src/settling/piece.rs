@@ -61,7 +61,7 @@ impl Piece {
 
     /// The piece's yarns with other control points, in the same order.
     ///
-    /// **Errors**: [`YarnError`] for another number of points, or an invalid one.
+    /// **Errors**: [`YarnError`] for another number of points, or for an invalid point.
     pub fn moved(&self, points: &[ControlPoint]) -> Result<Yarns, YarnError> {
         let planned = self.yarns.layout().point_count();
         if points.len() as u64 != planned {

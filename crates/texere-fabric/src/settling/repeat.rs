@@ -6,11 +6,16 @@ use texere_core::backend::room_for;
 use texere_core::{ControlPoint, Ends, Layout, Origin, Yarn, YarnError, Yarns};
 
 use super::Piece;
+use super::look::Look;
 use crate::FabricError;
 
-/// The fewest wales and courses of a piece that settles, if the cloth has as many. With so many, a
-/// stitch's neighbour over the seam is another stitch.
+/// The fewest wales, and the fewest courses, of a piece that settles, unless the cloth itself has
+/// fewer. In a piece of this size, the neighbour of a stitch across the seam between two repeats is
+/// another stitch, and not a copy of the stitch itself.
 const SETTLED: u32 = 4;
+
+/// The control points that are copied between two looks whether to go on, some 5 ms of a slow core.
+const LOOK_POINTS: usize = 1 << 18;
 
 /// A cloth made of copies of one repeat. The repeat settles once, and is then copied.
 ///
@@ -70,18 +75,19 @@ impl Repeat {
     ///
     /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed_beyond(&self, yarns: &Yarns, beyond: [u32; 2]) -> Result<Yarns, FabricError> {
-        self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source)
+        self.placed_as(yarns, beyond, |origin, _| origin, |source, _| source, &mut || Ok(()))
     }
 
     /// [`Repeat::placed_beyond`] with other origins and sources for each copy. `origin` and
     /// `source` give them for an origin or a source of the repeat and the place of the copy, in
-    /// repeats along x and y.
+    /// repeats along x and y. `look` is asked after each [`LOOK_POINTS`] or so.
     pub(crate) fn placed_as(
         &self,
         yarns: &Yarns,
         beyond: [u32; 2],
         origin: impl Fn(Origin, [i64; 2]) -> Origin,
         source: impl Fn(u32, [i64; 2]) -> u32,
+        look: Look<'_>,
     ) -> Result<Yarns, FabricError> {
         let (layout, boundary) = (yarns.layout(), &self.piece.boundary);
         if layout.offsets() != self.piece.yarns.layout().offsets() {
@@ -93,7 +99,7 @@ impl Repeat {
         let total = usize::try_from(u128::from(copies) * u128::from(layout.point_count() + ends));
         let total = total.unwrap_or(usize::MAX);
         let (mut table, mut offsets) = (Vec::new(), vec![0]);
-        let (mut points, mut sources) = (Vec::new(), Vec::new());
+        let (mut points, mut sources, mut looked) = (Vec::new(), Vec::new(), 0);
         room_for(&mut points, total, "control points")?;
         if yarns.sources().is_some() {
             room_for(&mut sources, total, "sources")?;
@@ -110,6 +116,10 @@ impl Repeat {
                 continue;
             }
             let next = |cell: &[i64; 2]| onward.map(|onward| [cell[0] + onward[0], cell[1] + onward[1]]);
+            if points.len() >= looked + LOOK_POINTS {
+                look()?;
+                looked = points.len();
+            }
             let range = yarns.range(yarn).unwrap_or_default();
             let mut lay = |round: [i64; 2], part: Range<usize>| {
                 let [x, y] = [0, 1].map(|axis| round[axis] as f64 * f64::from(boundary.repeat()[axis]));
@@ -145,6 +155,7 @@ impl Repeat {
             table.push(Yarn { origin: origin(own.origin, cell), ..own });
             offsets.push(points.len() as u64);
         }
+        look()?;
         let placed =
             Layout::new(table, offsets, layout.sections().to_vec())?.with_tension(layout.tension())?;
         let placed = Yarns::new(placed, yarns.materials().to_vec(), points)?;
@@ -168,8 +179,9 @@ pub(crate) fn settled_together(size: [u32; 2], copies: [u32; 2]) -> [u32; 2] {
     [0, 1].map(|axis| tiles(size[axis], copies[axis]))
 }
 
-/// The fewest repeats along one axis that divide `copies` and together have [`SETTLED`] wales or
-/// courses, if each has `size`. If no number up to 16 does, it is all `copies`.
+/// The smallest number of repeats along one axis that divides `copies`, and that has at least
+/// [`SETTLED`] wales or courses in all. One repeat has `size` of them. If no number up to 16 fits,
+/// the result is `copies`.
 fn tiles(size: u32, copies: u32) -> u32 {
     let divides = |tiles: &u32| copies.is_multiple_of(*tiles) && tiles.saturating_mul(size) >= SETTLED;
     (1..=copies.min(SETTLED * SETTLED)).find(divides).unwrap_or(copies)

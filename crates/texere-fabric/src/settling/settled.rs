@@ -1,4 +1,4 @@
-//! What is asked of settling, and its result.
+//! The settings of settling, and its result.
 
 use texere_contact::{Clearance, Linking};
 use texere_core::settling::{Length, Pass, Rest, SettlingSeen};
@@ -6,17 +6,17 @@ use texere_core::{Origin, YarnPlace, Yarns};
 
 use crate::{BySet, FabricWarning};
 
-/// What is asked of yarns that settle: lengths, a press and passes for knits, tensions and a
-/// calender for woven cloth.
+/// The settings of settling: lengths, a press and passes for knits; tautness and a calender for
+/// woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
-    /// gets the loop lengths of its program or its gauge, and its lengths are free if a loop has
-    /// neither. A warp knit gets the lengths of its run-ins, and keeps its lengths if a bar with
-    /// yarns has none. All other yarns keep their lengths.
+    /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
+    /// a length for some loop. A warp knit gets the lengths of its run-ins, and keeps its lengths
+    /// if a bar with yarns has none. All other yarns keep their lengths.
     pub length: Option<Length>,
-    /// Distance of the two plates that press the cloth while yarns settle, mm. Yarns that are at
-    /// rest at the start are not moved.
+    /// Distance of the two plates that press the cloth while yarns settle, mm. A press does not
+    /// move yarns that are at rest before settling begins.
     pub press_mm: Option<f32>,
     /// The most passes of each form of settling by contact: see
     /// [`texere_core::settling::Settling::passes`].
@@ -93,7 +93,8 @@ pub struct Settled {
     /// places. [`settle`](crate::settle()) measures a repeat as one piece, without its neighbours.
     /// [`Settled::rest`] counts the neighbours, too.
     pub clearance: Clearance,
-    /// The distance of the plates of a press, and the thickness of the cloth. None without a press.
+    /// The distance between the plates of the press, and the thickness of the cloth. None without a
+    /// press.
     pub press: Option<Press>,
     /// Every pass and its measures, in order. Empty unless [`Finish::record`] asks for them.
     pub course: Vec<(Pass, SettlingSeen)>,

@@ -13,7 +13,7 @@ use crate::{FabricError, POINTS_MAX, SPACING_MAX, SPACING_MIN};
 /// The most guide bars.
 const BARS_MAX: usize = 64;
 
-/// The most needles by which a bar is offset.
+/// The most needles by which a bar may be offset to either side.
 const OFFSET_MAX: i32 = 1 << 16;
 
 /// The most wales, and the most courses, of a cloth with all its copies.

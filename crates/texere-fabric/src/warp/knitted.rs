@@ -7,14 +7,14 @@ use texere_core::{Boundary, ControlPoint, Ends, Layout, Material, Origin, Sectio
 use super::laps::laps;
 use super::path::{Cloth, Thread};
 use super::{Bar, PlacedLap, check};
-use crate::settling::settled_together;
+use crate::settling::{Look, settled_together};
 use crate::weft::{self, Cells, Gauge, KnitYarn};
 use crate::{FabricError, Piece, Repeat, StitchPlace, ThreadError};
 
 /// A warp-knitted cloth: guide bars, the distances between loops, and yarns.
 ///
-/// All guides of a bar move alike, except those of a Jacquard bar. The laps repeat after some wales
-/// and courses. Only one repeat settles, and is then copied.
+/// All guides of a bar move alike, except the guides of a Jacquard bar. The laps of all bars repeat
+/// after some wales and courses. One such repeat settles, and is then copied.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -190,12 +190,17 @@ impl WarpKnitted {
     /// refuses, and [`FabricError::Boundary`] for a repeat that is too long.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.placed(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns, &mut || Ok(()))
     }
 
     /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. Origins
     /// and sources count guides and courses of the whole cloth.
-    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
+    pub(crate) fn placed(
+        &self,
+        repeat: &Repeat,
+        yarns: &Yarns,
+        look: Look<'_>,
+    ) -> Result<Yarns, FabricError> {
         let [wales, courses] = [0, 1].map(|axis| self.size()[axis] / repeat.copies[axis]);
         let origin = |origin, [x, _]: [i64; 2]| match origin {
             Origin::Guide { bar, guide } => Origin::Guide { bar, guide: guide + x as u32 * wales },
@@ -204,7 +209,7 @@ impl WarpKnitted {
         let last = i64::from(self.size()[1]);
         let source =
             |own: u32, [_, y]: [i64; 2]| (i64::from(own) + y * i64::from(courses)).clamp(1, last) as u32;
-        self.ended(repeat.placed_as(yarns, self.beyond(), origin, source)?)
+        self.ended(repeat.placed_as(yarns, self.beyond(), origin, source, look)?)
     }
 
     /// One repeat of the cloth, with its boundary. See [`WarpKnitted::repeat`].

@@ -39,8 +39,8 @@ use crate::weft::{Cells, Gauge};
 /// in closed and open tricot, pillar, cord and atlas stayed clear.
 const HEIGHT: f64 = 1.6;
 
-/// Range of heights that a run-in may lead to, in courses. Loops of all these heights go through
-/// one another.
+/// Range of heights that a run-in may lead to, in courses. Loops of any of these heights are drawn
+/// through the loops of the course below.
 const HEIGHTS: [f64; 2] = [1.45, 1.75];
 
 /// Number of halvings of [`HEIGHTS`]: 16 leave 5 millionths of a course.

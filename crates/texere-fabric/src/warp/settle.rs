@@ -43,10 +43,10 @@ impl WarpKnitted {
     /// The run-in of a bar gives the height of its loops, from 1.45 to 1.75 courses. A run-in may
     /// ask for more or less yarn than these heights give. If every bar with yarns has a run-in and
     /// `finish` leaves the lengths open, all yarns together then get the length that the run-ins
-    /// ask for, but between half and twice the length that they have. Otherwise yarns keep their
-    /// lengths. [`WarpKnitted::run_ins`] says by how much the run-in of each bar differs in the end
-    /// from the one asked for. [`Settled::clearance`] is the clearance of the whole cloth, with its
-    /// cut edges.
+    /// ask for, but between half and twice the length that they have. If a bar with yarns has no
+    /// run-in, yarns keep their lengths. [`WarpKnitted::run_ins`] says by how much the run-in of
+    /// each bar differs in the end from the one asked for. [`Settled::clearance`] is the clearance
+    /// of the whole cloth, with its cut edges.
     ///
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
@@ -61,8 +61,13 @@ impl WarpKnitted {
     ) -> Result<Settled, FinishError> {
         let repeat = self.repeat()?.with_tension(tension).map_err(FabricError::from)?;
         let finish = self.finish_of(&repeat, finish);
-        let settled =
-            settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)?;
+        let settled = settle_repeat(
+            &repeat,
+            |yarns, look| self.placed(&repeat, yarns, look),
+            &finish,
+            backend,
+            progress,
+        )?;
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
     }
 

@@ -118,7 +118,7 @@ fn pass(cells: &mut Vec<Cell>, one: &Cell, other: &Cell) -> Result<(), OutOfMemo
 /// 0 is the needle of the first cell itself.
 ///
 /// `way` is the distance to the next cell in wales, positive in the direction in which the carriage
-/// came. `turns` says that the next cell is made in the other direction.
+/// came. `turns` says whether the next cell is made in the other direction.
 ///
 /// - The next cell lies ahead, in the same direction: the yarn floats past the needles between.
 /// - The next cell lies ahead, in the other direction: the yarn also floats past the needle of the

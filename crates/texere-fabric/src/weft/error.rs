@@ -27,8 +27,9 @@ pub enum WeftError {
     #[error(
         "yarns pass {passed} needles and courses between {loops}, or on loops that are held; {limit} are taken at most", loops = counted(*.loops, "loop"))]
     KnitRuns {
-        /// Needles that yarns float past, plus courses by which yarns rise, plus courses for which
-        /// loops are held.
+        /// In a weft knit, the needles and courses from each stitch or float of a yarn to its next
+        /// one, plus twice the courses from each loop to the loop that is drawn through it. In a
+        /// warp knit, the needles that underlaps pass.
         passed: u64,
         /// Number of loops.
         loops: u64,

@@ -10,7 +10,7 @@ use super::pen::YarnPoints;
 use super::shape::Shape;
 use super::{Cells, Gauge, KnitYarn, Stitches, Strand, WeftError, check};
 use crate::reach::Reach;
-use crate::settling::settled_together;
+use crate::settling::{Look, settled_together};
 use crate::{FabricError, POINTS_MAX, Piece, Repeat, ThreadError};
 
 /// A weft-knitted cloth: stitches, the distances between them, and a yarn for each carrier.
@@ -138,15 +138,20 @@ impl Knitted {
     /// long.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let repeat = self.repeat()?;
-        self.placed(&repeat, &repeat.piece.yarns)
+        self.placed(&repeat, &repeat.piece.yarns, &mut || Ok(()))
     }
 
     /// The yarns of all copies of a repeat. `yarns` are the repeat's yarns, settled or not. A yarn
     /// that goes on from repeat to repeat is cut three control points beyond the cloth at both
-    /// ends, unless the cloth has [`Cells::Even`]. A leg runs straight at this point. The cut end
-    /// therefore bends as it does in the repeat, and touches nothing.
-    pub(crate) fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
-        repeat.placed_beyond(yarns, self.beyond())
+    /// ends, unless the cloth has [`Cells::Even`]. The third point lies in a leg, which runs
+    /// straight there. The cut end therefore bends as it does in the repeat, and touches nothing.
+    pub(crate) fn placed(
+        &self,
+        repeat: &Repeat,
+        yarns: &Yarns,
+        look: Look<'_>,
+    ) -> Result<Yarns, FabricError> {
+        repeat.placed_as(yarns, self.beyond(), |origin, _| origin, |source, _| source, look)
     }
 
     /// Number of control points by which a repeat's yarns go on beyond all copies, at their
@@ -169,8 +174,9 @@ impl Knitted {
     /// The piece of cloth that settles, and the number of its copies in the whole cloth.
     ///
     /// A cloth that repeats settles as one repeat that goes on at all its edges. Several small
-    /// repeats form one piece. A cloth that does not repeat settles as a whole. The ends of its
-    /// yarns, the arcs between loops of its first course and the heads on needles are pinned.
+    /// repeats form one piece. A cloth that does not repeat settles as a whole. Some of its points
+    /// are pinned: the ends of its yarns, the arcs between loops of its first course, and the heads
+    /// of loops that hang on needles when the program ends.
     ///
     /// **Errors**: the errors of [`Knitted::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -22,8 +22,8 @@ struct Hanging {
     made: bool,
 }
 
-/// A needle in one course: the course, and half wales from the left. If the cloth repeats, both lie
-/// within the repeat.
+/// A needle in one course: the number of the course, and the place of the needle in half wales. If
+/// the cloth repeats, both lie within the repeat.
 type Place = [i64; 2];
 
 /// A run of a yarn's steps in one direction and in one course.

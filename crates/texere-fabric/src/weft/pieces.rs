@@ -17,7 +17,7 @@ impl Knitted {
     ///
     /// Two yarns hold one another if a loop of one is drawn through a loop of the other, or if both
     /// go from bed to bed past one another. A yarn without loops is held if it passes between loops
-    /// of both beds. A loop on a needle at the end also holds its yarn.
+    /// of both beds. A loop that hangs on a needle when the program ends also holds its yarn.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         let stitches = self.stitches();

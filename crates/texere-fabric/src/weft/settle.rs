@@ -19,9 +19,9 @@ impl Knitted {
     /// cloth that does not repeat settles as a whole. See [`settle`].
     ///
     /// If `finish` leaves the lengths open, loops get, in the mean, the length that the program or
-    /// the gauge gives, but between half and twice the length that they have. If a loop has
-    /// neither, lengths are free. [`Settled::clearance`] is the clearance of the whole cloth, with
-    /// its cut edges.
+    /// the gauge gives, but between half and twice the length that they have. If neither gives a
+    /// length for some loop, all lengths are free. [`Settled::clearance`] is the clearance of the
+    /// whole cloth, with its cut edges.
     ///
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
@@ -38,7 +38,7 @@ impl Knitted {
         if self.stitches().repeat.is_none() {
             return settle(&repeat.piece, &finish, backend, progress).map(|settled| self.pressed(settled));
         }
-        settle_repeat(&repeat, |yarns| self.placed(&repeat, yarns), &finish, backend, progress)
+        settle_repeat(&repeat, |yarns, look| self.placed(&repeat, yarns, look), &finish, backend, progress)
             .map(|settled| self.pressed(settled))
     }
 
@@ -55,7 +55,7 @@ impl Knitted {
 
     /// The rule for lengths if the finish has none. Each loop asks for the length that the program
     /// gives, or else for the length of the gauge. All yarns together get the sum of these lengths.
-    /// If a loop has neither, lengths are free.
+    /// If neither gives a length for some loop, all lengths are free.
     fn length(&self, piece: &Piece, copies: [u32; 2]) -> Length {
         let stitches = &self.stitches().loops;
         let each = |stitch: &Stitch| stitch.length_mm.map(f64::from).or(self.gauge().loop_length_mm);

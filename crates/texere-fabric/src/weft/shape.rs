@@ -58,8 +58,8 @@ pub(super) const HEAD: Node = Node { up: 1.0, z: -0.84 };
 pub(super) const ARC: Node = Node { up: 0.0, z: -0.84 };
 
 /// Half the width of a loop at its feet, at the middle of its legs and at its shoulders, in wales.
-/// These were read off the loop at rest, as the nodes were. With 0.22 at the feet or 0.28 at the
-/// shoulders, `loops_are_as_deep_as_they_must_be` is red. It is green with 0.22 and 0.28 at the
+/// The widths were read off the loop at rest, as the nodes were. With 0.22 at the feet or 0.28 at
+/// the shoulders, `loops_are_as_deep_as_they_must_be` is red. It is green with 0.22 and 0.28 at the
 /// legs.
 pub(super) const FOOT_WIDE: f64 = 0.19;
 pub(super) const LEG_WIDE: f64 = 0.25;

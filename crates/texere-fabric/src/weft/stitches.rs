@@ -35,11 +35,11 @@ pub enum LoopKind {
 /// How a loop ends: held by another loop, on a needle, or dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
-    /// Another loop is drawn through it.
+    /// Another loop is drawn through the loop.
     Held(LoopRef),
-    /// It hangs on a needle when the program ends.
+    /// The loop hangs on a needle when the program ends.
     OnNeedle,
-    /// It fell off a needle, and nothing holds it.
+    /// The loop fell off a needle, and nothing holds it.
     Dropped,
 }
 

@@ -58,7 +58,7 @@ impl Tiling {
         ((y * self.tiles[0] + x) as usize, round)
     }
 
-    /// A reference of a loop in copy `cell`, in numbers of the large repeat.
+    /// A reference that a loop of the copy at `cell` makes, in loop numbers of the large repeat.
     fn of(&self, cell: [i64; 2], LoopRef { number, repeat }: LoopRef) -> LoopRef {
         let (copy, repeat) = self.copy([0, 1].map(|axis| cell[axis] + i64::from(repeat[axis])));
         LoopRef { number: number + copy as u32 * self.loops, repeat }

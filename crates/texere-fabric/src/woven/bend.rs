@@ -7,7 +7,7 @@ use super::shape::{Set, Shape};
 /// Distance of a shoulder from its crossing, as a multiple of half the width of the crossed thread
 /// plus half the height of the thread itself. A shoulder is the control point beside a crossing of
 /// a thread that changes sides. [`SHOULDER_MOST`] makes the distance smaller if the next crossing
-/// is near, and [`STRIDE`] makes it larger if that is far.
+/// is near, and [`STRIDE`] makes the distance larger if the next crossing is far.
 const SHOULDER: f32 = 0.7;
 
 /// The largest distance of a shoulder, as a share of the way to the next crossing. It was found in
@@ -19,35 +19,38 @@ const SHOULDER_MOST: f32 = 0.32;
 ///
 /// Deeper shoulders bend threads less and bring them nearer to one another. Places and depths of
 /// shoulders were tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves.
-/// The values in this file bend threads least tightly among those that keep threads at 0.99 of
-/// touching, alike or not, round or flat. The tightest bend of round threads alike has 1.7 radii at
-/// a pitch of 3 diameters, 1.4 at 2.5, 1.05 at 2, 0.95 at 1.9 and 0.83 at 1.8. Below 1.95 diameters
-/// the threads fold. Other places and depths, with separate values for round threads alike and for
-/// shoulders beside floats, gave 1.03 at 1.8 diameters. At the least pitch the best gave 0.88.
+/// Some of them keep threads at 0.99 of touching, whether the threads are alike or not, round or
+/// flat. The values in this file bend threads least tightly among these. The tightest bend of round
+/// threads of one size has a radius of 1.7 yarn radii at a pitch of 3 diameters, 1.4 at 2.5, 1.05
+/// at 2, 0.95 at 1.9 and 0.83 at 1.8. Below 1.95 diameters the threads fold. Trials with separate
+/// values for round threads of one size, and for shoulders beside floats, gave a radius of 1.03
+/// yarn radii at 1.8 diameters. At the least pitch at which threads are not jammed, the best trial
+/// gave 0.88.
 const FALL: f32 = 0.155;
 
 /// The largest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
 const FALL_OF_CIRCLE: f32 = 0.75;
 
 /// The steepest slope that a shoulder may give a thread at a crossing between a float and a change
-/// of sides. Two threads that both slope come nearer to one another beside the crossing: each slope
-/// brings them nearer by half its square.
+/// of sides. Two threads that both slope come nearer to one another beside the crossing. A slope of
+/// s takes a share of about s²/2 from their distance.
 const TILT: f32 = 0.06;
 
 /// The largest fall of a thread from the edge thread to the place where it leaves the cloth, as a
 /// multiple of the distance between the two centrelines at the edge thread. With a larger fall the
-/// thread tilts at that crossing if the shoulder towards a distant neighbour lies low.
+/// thread tilts at the crossing with the edge thread, if its shoulder towards a distant neighbour
+/// lies low.
 const FALL_OUT: f32 = 0.2;
 
 /// The longest step to the next control point, as a multiple of the step before.
 ///
 /// The spline's parameter runs from 0 to 1 in every interval, long or short. After a long interval
-/// the spline enters a short one at a high speed, and bends sharply where it slows down. From a
-/// ratio of five on it turns back.
+/// the spline enters a short one at a high speed, and bends sharply where it slows down. If an
+/// interval is five times as long as the next one, or longer, the spline turns back.
 pub(super) const STRIDE: f32 = 3.34;
 
 /// The share by which a length must differ from a stride to count as another length. A shoulder may
-/// lie exactly a stride away. Rounding must not decide whether that counts as further.
+/// lie exactly a stride away. Rounding must not decide whether it counts as further away.
 pub(super) const ROUNDING: f32 = 1e-3;
 
 /// Threads of one height, with the threads that they cross.
@@ -68,8 +71,8 @@ impl Bend<'_> {
         (self.crossed.at[to] - self.crossed.at[from]).abs()
     }
 
-    /// Distance between the centrelines at crossing `number`: half the heights of both sections
-    /// together, mm.
+    /// Distance between the centrelines at crossing `number`, mm: half the sum of the heights of
+    /// both sections.
     pub(super) fn room(&self, number: usize) -> f32 {
         self.half_height + self.crossed.half_height[number]
     }
@@ -133,9 +136,9 @@ impl Bend<'_> {
 
     /// Height of a thread where it leaves the cloth at the distance `aside` from crossing `number`,
     /// mm. If the thread changes sides on the other side of the crossing, the height is about that
-    /// of the shoulder there, so that the thread is level at the crossing. Otherwise it is the
-    /// height at the crossing. If the edge is near, the thread falls no further than a shoulder at
-    /// that distance may fall.
+    /// of the shoulder there, so that the thread is level at the crossing. If the thread keeps its
+    /// side there, or the shape is [`Shape::Crossing`], the height is that at the crossing. If the
+    /// edge is near, the thread falls no further than a shoulder at that distance may fall.
     pub(super) fn leaving_z(&self, number: usize, aside: f32, above: impl Fn(usize) -> bool) -> f32 {
         let depth = self.depth(number);
         let beyond = if number == 0 { 1 } else { number - 1 };

@@ -8,7 +8,7 @@ use super::thread::{
 use super::{BySet, Crimp, Drawdown, Shape};
 use crate::{FabricError, ThreadError, WovenError, yarn_check};
 
-/// The most control points of a cloth: 64 GiB of them.
+/// The most control points of a cloth. They take 64 GiB.
 pub(crate) const POINTS_MAX: u64 = 1 << 32;
 
 /// A woven cloth whose numbers have been checked: how its threads interlace, and the yarn and

@@ -5,7 +5,7 @@ use crate::WovenError;
 
 /// How warp and weft share the distance that they keep from one another where they cross.
 ///
-/// At a crossing the two centrelines are apart by R, half the heights of both sections together.
+/// At a crossing the two centrelines are apart by R, half the sum of the heights of both sections.
 /// The warp lies `share × R` from the cloth's middle, and the weft lies at the rest of R on the
 /// other side. All crossings of a cloth have the same share. If the threads that a thread crosses
 /// are alike, it therefore has the same distance from the middle at all crossings, as a thread
@@ -16,7 +16,8 @@ use crate::WovenError;
 /// The caller gives them as the threads' spacings.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
-/// 1937: h₁ + h₂ = D.
+/// 1937: h₁ + h₂ = D, with the crimp heights h₁ and h₂ of warp and weft, and D the sum of both
+/// diameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Crimp {

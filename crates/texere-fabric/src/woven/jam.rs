@@ -12,18 +12,21 @@ use crate::FabricWarning;
 /// rounded to `f32`.
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// The least pitch of two threads, divided by half their widths together plus the height of a
-/// thread that changes sides between them. `share` is the share of the crimp of the thread between.
+/// The least pitch of two threads, divided by the sum of two lengths: half the sum of the threads'
+/// widths, and the height of a thread that changes sides between them. `share` is the share of the
+/// crimp of the thread between.
 ///
 /// The thread between is jammed if it goes from arc to arc with nothing straight between. Round a
-/// crossed thread its centreline follows a circle of radius R, half the heights of both threads
-/// together. The centre of the circle is (1 - share) R beyond the cloth's middle, so that the
-/// circle meets the middle √(share (2 - share)) R to the side. Flat threads stretch the circle
-/// sideways: half the width of the crossed thread plus half the height of the thread between takes
-/// the place of R. Two sets of round threads of diameter d with half the crimp each need √3 d.
+/// crossed thread its centreline follows a circle of radius R, half the sum of the heights of both
+/// threads. The centre of the circle is (1 - share) R beyond the cloth's middle, so that the circle
+/// meets the middle √(share (2 - share)) R to the side. Flat threads stretch the circle sideways:
+/// half the width of the crossed thread plus half the height of the thread between takes the place
+/// of R. Two sets of round threads of diameter d with half the crimp each need √3 d.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
-/// 1937, where both sets jam at l = D θ. Here each set jams by its own share of the crimp.
+/// 1937, where both sets jam at l = D θ, with the length l of thread from crossing to crossing, the
+/// sum D of both diameters, and the weave angle θ in radians. Here each set jams by its own share
+/// of the crimp.
 pub(super) fn reach(share: f32) -> f32 {
     (share * (2.0 - share)).sqrt()
 }
@@ -35,9 +38,9 @@ pub(super) struct Gap {
     pub(super) thread: u32,
     /// Distance between the two threads, mm.
     pub(super) pitch: f64,
-    /// Half the widths of the two threads together, mm.
+    /// Half the sum of the widths of the two threads, mm.
     pub(super) widths: f32,
-    /// Half the heights of the two threads together, mm.
+    /// Half the sum of the heights of the two threads, mm.
     heights: f32,
     /// Height of the thickest thread that changes sides between the two threads, mm; none if no
     /// thread does.

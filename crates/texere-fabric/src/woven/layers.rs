@@ -46,11 +46,12 @@ impl Drawdown {
         });
         let (mut layers, mut last) = (Vec::<[usize; 2]>::new(), [0, 0]);
         for (first, over) in sums_over.iter().enumerate() {
-            // After the first ends, picks are taken, those with the greatest counts first. Each
-            // pick adds its count to the number of times on top, and the number of the other ends
-            // to the number of crossings. The first number, less the second, is therefore largest
-            // once all picks with a count above the number of other ends are taken, and none with a
-            // count below it. Only there can both numbers be equal.
+            // The first ends are taken. Picks are then taken one by one, the greatest count first.
+            // Each pick adds its count to the number of crossings at which a taken thread lies on
+            // top, and it adds the number of the other ends to the number of crossings of taken
+            // threads. The first number less the second is therefore largest once all picks with a
+            // count above the number of other ends are taken, and no pick with a count below it.
+            // Both numbers can be equal only there.
             let others = (ends - first) as u64;
             let [fewest, most] = [
                 under.partition_point(|count| *count > others),

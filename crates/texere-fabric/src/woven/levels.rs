@@ -3,8 +3,8 @@
 use super::{BySet, Drawdown};
 
 /// How many crossing threads have to pass below a thread and above the next one, for each crossing
-/// thread that passes the other way, so that the first thread counts as lying above the second.
-/// Those that pass the other way are stitches of a double cloth.
+/// thread that passes the other way, so that the first thread counts as lying above the second. The
+/// crossing threads that pass the other way are then stitches of a double cloth.
 const STITCHED: u64 = 4;
 
 /// The most neighbouring threads of one level in a cloth of several layers. A longer run is a
@@ -15,8 +15,8 @@ const SIDE_BY_SIDE: usize = 4;
 /// cloth with three threads of the face to one of the back this share is a half.
 const STACKED: f64 = 0.4;
 
-/// The most passes in the search for levels. A cloth with this number of levels needs no more, and
-/// neighbours that contradict one another would go on for ever.
+/// The most passes in the search for levels. A cloth with this number of levels needs no more. If
+/// neighbours contradict one another, the search would never end without this limit.
 const LEVELS_MAX: u32 = 8;
 
 /// How two neighbouring threads of a set lie.

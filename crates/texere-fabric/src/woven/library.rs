@@ -5,7 +5,8 @@
 /// warp up.
 ///
 /// **Source**: Encyclopædia Britannica, 11th edition, 1911, "Honeycomb", design A, the perfect
-/// honeycomb: seven of weft and five of warp in its longest floats.
+/// honeycomb. Its longest weft float passes over seven ends, and its longest warp float over five
+/// picks.
 pub(super) const HONEYCOMB: [&str; 8] =
     [".#.....#", "#.#...#.", "##.#.#.#", "###.#.##", "##.#.#.#", "#.#...#.", ".#.....#", "#......."];
 
@@ -13,8 +14,8 @@ pub(super) const HONEYCOMB: [&str; 8] =
 /// and `#` is warp up.
 ///
 /// **Source**: John T. Taylor, "Cotton Weaving and Designing", 6th edition, 1909, makes crapes by
-/// rearranging the ends of a twill, and gives the twill 2/2*1/1*1/1 for this purpose. Here every
-/// third end of that twill follows the one before, as in an eight-end satin.
+/// rearranging the ends of a twill, and gives the twill 2/2*1/1*1/1 for this purpose. Here the ends
+/// of that twill are taken in steps of three, as in an eight-end satin.
 pub(super) const CREPE: [&str; 8] =
     ["##...#.#", "..#.###.", ".###...#", "#...#.##", ".#.###..", "###...#.", "...#.###", "#.###..."];
 
@@ -29,7 +30,7 @@ pub(super) fn drawn(drawing: &[&str], end: usize, pick: usize) -> bool {
 #[derive(Clone, Copy)]
 pub(super) enum Reversal {
     /// Herringbone: the line is cut. The first end in the other direction is taken half a repeat of
-    /// the twill further on, so that warp floats lie beside weft floats.
+    /// the twill further on, so that in a balanced twill warp floats lie beside weft floats.
     Cut,
     /// The line turns at a single end, the point.
     Point,

@@ -15,7 +15,8 @@ pub(super) enum Notation {
     /// less than the length of the row. After `picks` picks the row has come back to its first
     /// place.
     Shifted { base: Vec<bool>, step: usize, picks: usize },
-    /// A column of picks, `base`: as it is for `left` ends, and inverted for the next `right` ends.
+    /// A column of picks, `base`. The first `left` ends have the column as it is, and the next
+    /// `right` ends have it inverted.
     Matt { base: Vec<bool>, left: usize, right: usize },
     /// A twill of move 1 whose line goes one way for `way` ends, and then back.
     Reversed { base: Vec<bool>, reversal: Reversal, way: usize },
@@ -142,8 +143,8 @@ fn satin(cursor: &mut Cursor<'_>, warp_faced: bool) -> Result<Notation, WovenErr
     } else {
         smallest
     };
-    // In the first pick of a warp-faced satin all ends but the last are up, in that of a weft-faced
-    // one all ends but the first are down.
+    // In the first pick of a warp-faced satin all ends but the last are up. In the first pick of a
+    // weft-faced satin all ends but the first are down.
     let base = (0..ends).map(|end| if warp_faced { end + 1 < ends } else { end == 0 }).collect();
     Ok(Notation::Shifted { base, step, picks: ends })
 }

@@ -126,8 +126,8 @@ impl<'a> ThreadPath<'a> {
     }
 }
 
-/// The crossings of threads of one height, in the order in which the threads run: against the order
-/// of the crossed threads if they run `back`.
+/// The crossings of threads of one height, in the order in which the threads run. With `back` the
+/// threads run against the order of the threads that they cross.
 pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
     let count = bend.crossed.at.len();
     let number = |step: usize| if back { count - 1 - step } else { step };
@@ -198,7 +198,7 @@ impl Float {
     fn walk(&self, ends: [(&Station, bool); 2], stop: &mut impl FnMut(Stop)) {
         let forward = (self.to - self.from).signum();
         let mut left = (self.to - self.from).abs();
-        // The margin keeps evenly spaced threads without points.
+        // Without the margin, rounding could give points to evenly spaced threads.
         let too_long = |left: f32, step: f32| step > 0.0 && left > (1.0 + ROUNDING) * STRIDE * step;
         if !self.beside.into_iter().flatten().any(|step| too_long(left, step)) {
             return;

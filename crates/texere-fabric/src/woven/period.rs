@@ -9,9 +9,10 @@ use super::{Drawdown, Woven};
 use crate::FabricError;
 use crate::own::Own;
 
-/// Number of threads from which a set is measured as it is. The stretch from a thread's last
+/// A set of at least this many threads is measured as it is. The stretch from a thread's last
 /// crossing to its first crossing in the next repeat then changes its crimp by a share of less than
-/// 1 / `FEW`. A smaller set of three repeats or fewer is woven with more repeats to be measured.
+/// 1 / `FEW`. A smaller set that has three repeats or fewer is woven with more repeats, which are
+/// measured.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.
@@ -79,8 +80,8 @@ impl<'a> Sample<'a> {
     }
 
     /// For each end and each pick, the length of yarn over the length of cloth. The outermost
-    /// repeats are left out if there are enough. Otherwise, and for a yarn of several picks, the
-    /// whole yarn counts, with its turns at the selvedges.
+    /// repeats are left out if other whole repeats remain. If none remains, and for a yarn of
+    /// several picks, the whole yarn counts, with its turns at the selvedges.
     pub(crate) fn ratios(&self) -> [Vec<f64>; 2] {
         let threads: Vec<_> = self.cloth.yarns_of_threads().collect();
         let mut passes = vec![0_usize; self.yarns.layout().yarns().len()];

@@ -27,8 +27,8 @@ pub struct Pitch {
     pub thread: Origin,
     /// Distance of the thread to the thread before it, mm.
     pub pitch_mm: f64,
-    /// The least distance at which the two lie side by side without piercing: half their widths
-    /// together, mm.
+    /// The least distance at which the two lie side by side without piercing, mm: half the sum of
+    /// their widths.
     pub beside_mm: f64,
     /// The least distance at which crossing threads that change sides between the two can pass, mm;
     /// 0 if no thread changes sides there.

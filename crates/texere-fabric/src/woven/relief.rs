@@ -81,8 +81,9 @@ struct Change {
     widened: [f32; 2],
 }
 
-/// The gaps of a set that can be the tightest. A gap has half the widths of both its threads
-/// together, and the thickest thread that passes between them, each over the pitch.
+/// The gaps of a set that can be the tightest. A gap has two values: half the sum of the widths of
+/// its two threads, and the height of the thickest thread that changes sides between them. Both are
+/// divided by the gap's pitch.
 struct Needs(Vec<[f32; 2]>);
 
 impl Needs {
@@ -120,9 +121,9 @@ impl Woven {
     /// Makes room for jammed threads, as `relief` says, and reports the threads before and after.
     ///
     /// First the warp's share of the crimp changes, between 20 and 80 %, and no more than it must.
-    /// A share that was given as [`Crimp::WarpShare`] stays. A change of the share changes no
-    /// thread's size, and in real cloth, too, a dense set bends more and the threads that cross it
-    /// straighten. Threads that are still jammed are then flattened or thinned.
+    /// A share that was given as [`Crimp::WarpShare`] stays. The share comes first because it
+    /// changes no thread's size. In real cloth, too, a dense set bends more, and the threads that
+    /// cross it straighten. Threads that are still jammed are then flattened or thinned.
     ///
     /// Flattening changes the set that passes between the jammed threads. A wider thread needs more
     /// room beside it, so that relief of one set may jam the other. Threads that can't be relieved
@@ -131,8 +132,9 @@ impl Woven {
     /// turn with the twist.
     ///
     /// A pitch counts as enough from 1.03 times the least pitch, if both sets have half of the
-    /// crimp, to 1.18 times, if one has a fifth. Only with so much does the spline keep the threads
-    /// clear. The least pitch is that of [`Shape::Round`], whatever the cloth's own shape.
+    /// crimp, to 1.18 times, if one has a fifth. With less the spline does not keep the threads
+    /// clear of one another. The least pitch is that of [`Shape::Round`], whatever the cloth's own
+    /// shape.
     ///
     /// **Errors**: [`ThreadError::Radius`] or [`WovenError::Half`] if a radius, a half width or a
     /// half height would be less than [`RADIUS_MIN`] or more than [`RADIUS_MAX`]. After an error
@@ -238,8 +240,8 @@ impl Woven {
 }
 
 /// The smallest change with which nothing is jammed or, if there is none, the change with which the
-/// cloth is least jammed. A small change of widths counts before a small change of the share,
-/// because a share changes no thread's size.
+/// cloth is least jammed. If several changes relieve the cloth equally, the one that widens threads
+/// least is taken. If several widen threads equally, the one that changes the share least is taken.
 fn best(shares: &[f32], ends: &[f32], picks: &[f32], now: Change, worst: impl Fn(&Change) -> f32) -> Change {
     let cost = |change: &Change| {
         let excess = (worst(change) - 1.0).max(0.0);

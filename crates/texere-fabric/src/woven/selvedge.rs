@@ -30,9 +30,9 @@ pub(super) const fn runs_left(pick: usize, selvedge: bool) -> bool {
     selvedge && pick % 2 == 1
 }
 
-/// A half circle in the plane of the cloth `from` one pick `to` the next, both at `x`. `outwards`
-/// is +1 at the right edge and -1 at the left. Heights and sizes change steadily from those of one
-/// pick to those of the other.
+/// A turn that, seen from the face, is a half circle `from` one pick `to` the next. It begins and
+/// ends at `x`. `outwards` is +1 at the right edge and -1 at the left. Heights and sizes change
+/// steadily from those of one pick to those of the other.
 ///
 /// If the two picks lie on different sides of the edge end, the turn is level with that end half
 /// way round, where it is furthest from the end.

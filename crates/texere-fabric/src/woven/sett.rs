@@ -128,8 +128,8 @@ struct Level {
 
 /// The pitch at which `threads`, in plain weave, jam between the threads of the other set, mm.
 /// `pitch` is the pitch of the other set. The steepest slopes θ₁ and θ₂ of both sets then have cos
-/// θ₁ + cos θ₂ = 1. The pitch of each set is the sum of both heights times sin θ, plus the excess
-/// of the set's width over its height.
+/// θ₁ + cos θ₂ = 1. The pitch of each set is then the sum of both heights times the sine of the
+/// slope of the threads that cross the set, plus the excess of the set's width over its height.
 fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
     let [[wide, high], [other_wide, other_high]] = [threads, others].map(|threads| {
         let halves = threads.iter().map(|thread| thread.halves_mm().map(f64::from));
@@ -137,8 +137,8 @@ fn jammed(threads: &[Thread], others: &[Thread], pitch: f64) -> f64 {
         sum.map(|sum| sum / threads.len() as f64)
     });
     let both = high + other_high;
-    // At 1, the threads of the other set lie so far apart that the threads of this set may lie side
-    // by side.
+    // The sine of this set's slope. At 1, the threads of the other set lie so far apart that the
+    // threads of this set may lie side by side.
     let other = ((pitch - other_wide + other_high) / both).clamp(0.0, 1.0);
     let left = 1.0 - (1.0 - other * other).sqrt();
     (wide - high + both * (1.0 - left * left).sqrt()).max(wide)

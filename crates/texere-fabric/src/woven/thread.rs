@@ -71,8 +71,8 @@ impl Thread {
     }
 }
 
-/// Middles of a set's threads, mm from the cloth's edge. Each lies in the middle of a column as
-/// wide as its own spacing.
+/// Middles of a set's threads, mm from the cloth's edge. Each thread lies in the middle of a column
+/// as wide as its own spacing.
 ///
 /// **Source**: WIF 1.1 (Nielsen 1997) calls a thread's spacing the room that it takes in the cloth.
 pub(super) fn middles(threads: &[Thread]) -> impl Iterator<Item = f64> {

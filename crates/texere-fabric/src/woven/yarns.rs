@@ -45,8 +45,8 @@ pub(super) struct Laying<'a> {
     measured: &'a Measured,
 }
 
-/// Threads that share a path: whether they are picks, whether they run to the left, and the bits of
-/// their half height.
+/// What the threads that share a path have in common: whether they are picks, whether they run to
+/// the left, and the bits of their half height.
 pub(super) type Kind = (bool, bool, u32);
 
 impl Woven {
@@ -69,10 +69,10 @@ impl Woven {
     /// **Errors**: [`WovenError::Points`] for more than 2³² control points,
     /// [`FabricError::OutOfMemory`], and [`FabricError::Yarns`] for yarns that [`Yarns`] refuses.
     ///
-    /// **Source**: one control point at each crossing is the number of the paper that texere
-    /// implements (README.md). The heights at a crossing and the bends of round threads follow
-    /// Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28, 1937 (h₁ +
-    /// h₂ = d₁ + d₂).
+    /// **Source**: the paper that texere implements (README.md) has one control point at each
+    /// crossing. The heights at a crossing and the bends of round threads follow Peirce, "The
+    /// geometry of cloth structure", Journal of the Textile Institute 28, 1937: h₁ + h₂ = d₁ + d₂,
+    /// with the crimp heights h and the diameters d of warp and weft.
     pub fn yarns(&self) -> Result<Yarns, FabricError> {
         let (measured, passes) = (self.measured(), self.passes());
         let laying = self.laying(&measured);
@@ -272,10 +272,10 @@ impl<'a> Laying<'a> {
         selvedge::runs_left(pick, self.cloth.selvedge())
     }
 
-    /// The turn from the pick before to `pick`. It begins half the widths of both threads beyond
-    /// the edge end, so that the two can't touch, whatever the end's height. If a quarter of the
-    /// distance between the picks is more, the turn begins that far out. The turn's steps are then
-    /// not much longer than the step that leads to the turn.
+    /// The turn from the pick before to `pick`. It begins beyond the edge end by half the sum of
+    /// the widths of end and pick, so that the two can't touch, whatever the end's height. If a
+    /// quarter of the distance between the picks is more, the turn begins that far out. The turn's
+    /// steps are then not much longer than the step that leads to the turn.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let Measured { warp, weft, .. } = self.measured;
         let right = self.runs_left(pick);

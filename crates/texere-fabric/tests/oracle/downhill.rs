@@ -1,10 +1,11 @@
 //! An oracle for `contacts.rs`: the centreline of a yarn by the polynomials of the Catmull-Rom
 //! spline, its bends, and the way downhill from a contact to the nearest approach.
 
+use std::collections::{HashSet, VecDeque};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DVec3, Vec4Swizzles};
-use texere_contact::Contact;
+use texere_contact::{CLEARANCE_ACCURACY, Contact};
 use texere_core::definitions::Segment;
 use texere_core::{ControlPoint, Yarns};
 
@@ -34,6 +35,46 @@ pub(crate) fn place(tangle: &Yarns, yarn: usize, at: f64) -> (DVec3, f64) {
     (place.xyz(), place.w)
 }
 
+/// Leads `at` downhill to the nearest place where `ratio` is least. Returns the ratio there.
+fn descend(ratio: &impl Fn([f64; 2]) -> f64, at: &mut [f64; 2]) -> f64 {
+    let (mut least, mut step) = (ratio(*at), 0.01);
+    while step > 1e-7 {
+        let tried = (0..16).map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / 16.0).sin_cos();
+            [at[0] + step * cos, at[1] + step * sin]
+        });
+        let best = tried.map(|at| (ratio(at), at)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        if best.0 < least {
+            (least, *at) = best;
+            step = f64::min(2.0 * step, 0.01);
+        } else {
+            step /= 2.0;
+        }
+    }
+    least
+}
+
+/// A place with a lower ratio than `least`, which is the ratio at `at`, if a way leads there over a
+/// rise of less than [`CLEARANCE_ACCURACY`]. The way goes along a lattice whose places lie a 500th
+/// of an interval apart, over 5,000 of them at most.
+fn over_a_rise(ratio: &impl Fn([f64; 2]) -> f64, at: [f64; 2], least: f64) -> Option<[f64; 2]> {
+    let there = |[i, j]: [i32; 2]| [at[0] + f64::from(i) / 500.0, at[1] + f64::from(j) / 500.0];
+    let (mut seen, mut left) = (HashSet::from([[0, 0]]), VecDeque::from([[0, 0]]));
+    while let Some([i, j]) = left.pop_front().filter(|_| seen.len() < 5000) {
+        let beside = (-1..=1).flat_map(|di| (-1..=1).map(move |dj| [i + di, j + dj]));
+        for place in beside {
+            let here = ratio(there(place));
+            if here < least - 1e-9 {
+                return Some(there(place));
+            }
+            if here < least + CLEARANCE_ACCURACY && seen.insert(place) {
+                left.push_back(place);
+            }
+        }
+    }
+    None
+}
+
 /// The ratio at the end of the way downhill in `tangle`, from a contact of a similar tangle. None
 /// if the places at the end are so near one another along one yarn that they are no contact, or
 /// almost none.
@@ -44,19 +85,11 @@ pub(crate) fn downhill(tangle: &Yarns, from: &Contact) -> Option<f64> {
         a.0.distance(b.0) / (a.1 + b.1)
     };
     let mut at = from.places.each_ref().map(|place| place.interval as f64 + place.t);
-    let (mut least, mut step) = (ratio(at), 0.01);
-    while step > 1e-7 {
-        let tried = (0..16).map(|k| {
-            let (sin, cos) = (TAU * f64::from(k) / 16.0).sin_cos();
-            [at[0] + step * cos, at[1] + step * sin]
-        });
-        let best = tried.map(|at| (ratio(at), at)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-        if best.0 < least {
-            (least, at) = best;
-            step = f64::min(2.0 * step, 0.01);
-        } else {
-            step /= 2.0;
-        }
+    let mut least = descend(&ratio, &mut at);
+    // A rise that is lower than the accuracy of a ratio does not make two contacts of one.
+    while let Some(lower) = over_a_rise(&ratio, at, least) {
+        at = lower;
+        least = descend(&ratio, &mut at);
     }
     // Length along the yarn by chords between its points. Around a closed yarn the way has two
     // directions.

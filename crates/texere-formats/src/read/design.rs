@@ -14,8 +14,8 @@ use super::named_place::NamedPlace;
 use super::program_place::ProgramPlace;
 use super::refusal::Refusal;
 
-/// The most control points of cloth in which the most crowded place is looked for. The search then
-/// takes up to a second.
+/// In cloth with more control points than this, the most crowded place is not looked for. With this
+/// number the search takes up to a second.
 const CROWDED_POINTS: usize = 1 << 18;
 
 /// A design, read and checked.
@@ -32,7 +32,7 @@ pub struct Design {
     /// The structure that the design describes.
     pub structure: Structure,
     /// Whether the yarns come to rest ([`Design::rest`]) before they are used. [`Design::yarns`]
-    /// gives them as they are placed.
+    /// gives the yarns as the structure places them in either case.
     pub settle: bool,
     /// How the yarns settle.
     pub finish: Finish,
@@ -46,7 +46,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// A design of a program's own, whose yarns settle.
+    /// A design that a program makes itself, without a file. Its yarns settle.
     ///
     /// ```
     /// use texere_core::{Material, Section};
@@ -103,8 +103,8 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The design with the keys of its file. If it has keys already, these are the keys of a draft
-    /// that the file names.
+    /// The design with the keys of its file. If the design has keys already, they are those of a
+    /// draft that the file names.
     pub(super) fn keyed(self, keys: Keys) -> Self {
         let named = (!self.keys.lines.is_empty()).then(|| Box::new(self.keys));
         Self { keys: Keys { named, ..keys }, ..self }
@@ -137,8 +137,8 @@ impl Design {
     }
 
     /// The line of a knitout file that makes the yarn in the most crowded place, or at the worst
-    /// contact if no place is crowded. None for other designs, and for cloth with more than
-    /// [`CROWDED_POINTS`] control points.
+    /// contact if no place is crowded. None if the design is not knitted from a knitout file, and
+    /// for cloth with more than [`CROWDED_POINTS`] control points.
     fn crowded(&self) -> Option<FilePlace> {
         let (from, yarns) = (self.knitted_from.as_ref()?, self.yarns().ok()?);
         if yarns.points().len() > CROWDED_POINTS {
@@ -195,8 +195,8 @@ impl Design {
         &self.faults
     }
 
-    /// The place in the program of a weft knit that the yarn of a control point comes from.
-    /// `source` is that point's [source](Yarns::sources). None if the design has no program.
+    /// The place in a weft knit's program from which the yarn at a control point comes. `source` is
+    /// that point's [source](Yarns::sources). None if the design has no program.
     #[must_use]
     pub fn program_place(&self, source: u32) -> Option<ProgramPlace> {
         self.knitted_from.as_ref().map(|from| from.program_place(source))

@@ -75,8 +75,8 @@ fn plain(text: &str) -> String {
     plain
 }
 
-/// A note for errors about a text with a sign that looks like a hyphen or a minus and is neither.
-/// Empty for other texts.
+/// A note for errors about a text with a character that looks like the hyphen of the keyboard
+/// (U+002D) and is another one, such as a dash. Empty for other texts.
 pub(super) fn no_hyphen(text: &str) -> String {
     let sign = hyphen_look_alike(text);
     sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
@@ -149,7 +149,7 @@ pub enum ReadError {
     /// There was too little memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// The file is larger than any design of its kind.
+    /// The file is larger than a file of its kind may be.
     #[error("{} has {bytes}, more than {limit}", named(.file), bytes = counted(*.bytes, "byte"))]
     TooLarge {
         /// The file.
@@ -433,8 +433,8 @@ impl ReadError {
         }
     }
 
-    /// The refusal of the design in `file` by its structure. A lack of memory stays
-    /// [`ReadError::OutOfMemory`], because the design is not at fault.
+    /// Turns an error of a structure into the refusal of the design in `file`. A lack of memory
+    /// stays [`ReadError::OutOfMemory`], because the design is not at fault.
     pub(super) fn fabric(file: &Path, source: FabricError) -> Self {
         match source {
             FabricError::OutOfMemory(error) => Self::OutOfMemory(error),

@@ -1,5 +1,6 @@
-//! Finds the key of a design that an error of its cloth is about. Structures and settlers name
-//! threads, bars and sizes in their errors. In a file these have keys, on certain lines.
+//! Finds the key of a design that an error of its cloth is about. Errors of structures, and of
+//! yarns that come to rest, name threads, bars and sizes. In a file a key sets each of these, and
+//! the key has a line.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +9,8 @@ use texere_fabric::FinishError;
 
 use super::{FilePlace, ReadError};
 
-/// Keys that say how large a cloth is. For this list and the lists below, an error names the first
-/// key that the file has.
+/// Keys that say how large a cloth is. From this list, and from each list below, an error names the
+/// first key that the file has.
 const SIZE: &[&str] = &[
     "weave.ends",
     "weave.picks",
@@ -68,7 +69,8 @@ const LOOPS: &[&str] = &[
 /// Keys of a yarn that say how thick it is.
 const THICKNESS: &[&str] = &["diameter_mm", "tex", "cotton_count"];
 
-/// The tables of structures.
+/// The tables of a design file that describe a structure. If no key fits, an error names the first
+/// of these tables that the file has.
 const TABLES: &[&str] = &["weave", "knit", "warp_knit"];
 
 /// The header of a knitout file that says how close needles lie.
@@ -99,7 +101,7 @@ impl Keys {
 
     /// The place that an error is about, in the file or in the draft that the file names. `yarn`
     /// gives the name of a thread's yarn. None if the error has no subject, or if the file has
-    /// neither a key for it nor a table of a structure.
+    /// neither a key for the subject nor a table of a structure.
     pub(super) fn place(
         &self,
         error: &FinishError,
@@ -187,8 +189,8 @@ impl Keys {
         self.last.as_ref().map(|(operation, line)| FilePlace::new(&self.file, *line, operation))
     }
 
-    /// The place of the key that spaces the threads of `set`, which is `warp` or `weft`. A draft
-    /// without a spacing has the place of its number of threads.
+    /// The place of the key that spaces the threads of `set`, which is `warp` or `weft`. In a draft
+    /// without a spacing it is the place of the number of threads.
     fn spacings(&self, set: &str) -> Option<FilePlace> {
         let own = ["spacing_mm", "per_cm", "per_inch"];
         let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
@@ -202,8 +204,8 @@ impl Keys {
         self.numbered("SPACING", thread).or_else(|| self.spacings(set))
     }
 
-    /// The place of a thread's thickness in a WIF draft. A draft without thickness has the place of
-    /// its spacing, from which the thickness is worked out.
+    /// The place of a thread's thickness in a WIF draft. In a draft without thickness it is the
+    /// place of the spacing, from which the thickness is worked out.
     fn thickness(&self, thread: Origin) -> Option<FilePlace> {
         let set = if matches!(thread, Origin::Pick(_)) { "WEFT" } else { "WARP" };
         self.numbered("THICKNESS", thread)
@@ -224,8 +226,9 @@ impl Keys {
         Some(FilePlace::new(&self.file, threads[found].1, &format!("[{section}] {number}")))
     }
 
-    /// The first of `keys` that the thread's yarn has, or else the yarn's table, or else the key
-    /// that threads the yarn.
+    /// The place of the first of `keys` that the thread's yarn has, or else of the yarn's table.
+    /// The yarn is the one called `name`, or else the file's only yarn. Without a yarn it is the
+    /// place of the key that says which yarns are threaded.
     fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<FilePlace> {
         let only = || {
             let own =

@@ -19,7 +19,7 @@ use super::{Design, ReadError};
 /// The most faults of each kind that are listed.
 const FAULTS_LISTED: usize = 3;
 
-/// A weft knit without its program.
+/// A weft knit, apart from its program.
 #[derive(Debug)]
 pub(super) struct Knit {
     pub(super) gauge: Gauge,

@@ -8,13 +8,13 @@ use super::FilePlace;
 use super::error::named;
 use super::program_place::ProgramPlace;
 
-/// What the sources of a program's operations stand for.
+/// What the source of each operation of a program numbers: lines of a file, or cells of a chart.
 #[derive(Debug, Clone)]
 pub(super) enum Drawn {
     /// Lines of a file, counted from 1.
     Lines { file: PathBuf },
-    /// Cells of a chart, row by row. Rows and columns are counted from 0. Rows are counted from the
-    /// bottom, or from the top if the chart is `upside_down`.
+    /// Cells of a chart or an image, counted from 0, row by row from the left. The first row is the
+    /// bottom row, or the top row if `upside_down`.
     Cells { file: PathBuf, columns: usize, rows: usize, upside_down: bool },
 }
 
@@ -32,7 +32,7 @@ impl Drawn {
     }
 }
 
-/// A program, and the file or chart of its operations.
+/// A program, and the file, chart or image that its operations come from.
 #[derive(Debug, Clone)]
 pub(super) struct KnittedFrom {
     pub(super) drawn: Drawn,
@@ -40,8 +40,8 @@ pub(super) struct KnittedFrom {
 }
 
 impl KnittedFrom {
-    /// The line of a knitout file that a source stands for. None for a chart, because errors name a
-    /// chart as a whole.
+    /// The line of a knitout file that a source stands for. None for a chart or an image, because
+    /// errors name it as a whole.
     pub(super) fn line(&self, source: u32) -> Option<FilePlace> {
         let Drawn::Lines { file } = &self.drawn else { return None };
         Some(FilePlace::new(file, source as usize, &self.program_place(source).instructions.join("; ")))

@@ -2,10 +2,12 @@
 //! yarns](fn@yarns).
 
 mod bytes;
+mod curves;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;
 mod error;
+mod fault_place;
 mod file;
 #[cfg(feature = "toml")]
 mod image_file;
@@ -29,8 +31,10 @@ use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::Path;
 
+pub use curves::{CurveScale, curves, curves_from};
 pub use design::Design;
 pub use error::{FilePlace, ReadError};
+pub use fault_place::{FaultPlace, fault_place};
 use file::Files;
 pub use machine_fault::MachineFault;
 pub use named_place::NamedPlace;

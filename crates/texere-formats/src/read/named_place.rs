@@ -14,8 +14,8 @@ pub struct NamedPlace {
     pub thread: ThreadPlace,
     /// The name of the yarn's material, perhaps empty.
     pub material: String,
-    /// The place in the program of a weft knit that the yarn comes from. None if there is no
-    /// program, or if the place has no source.
+    /// The place in a weft knit's program from which the yarn comes. None if there is no program,
+    /// or if the place has no source.
     pub program: Option<ProgramPlace>,
 }
 

@@ -1,5 +1,5 @@
 //! Point paper: an image of which each pixel is a crossing of a weave, a stitch of a weft knit, or
-//! a lap of a Jacquard guide.
+//! a guide of a Jacquard bar at one round of the bar's chain.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -125,8 +125,8 @@ impl PaperColor {
         }
     }
 
-    /// How light the colour looks, by the weights of ITU-R BT.601, in thousandths. A transparent
-    /// pixel counts as lighter than any colour.
+    /// How light the colour looks: its luma by the weights of ITU-R BT.601, times 1000. A
+    /// transparent pixel counts as lighter than any colour.
     fn luma(&self) -> u32 {
         if self.rgba == NOTHING {
             return u32::MAX;

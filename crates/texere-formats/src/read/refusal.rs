@@ -30,8 +30,8 @@ pub enum Refusal {
         source: FinishError,
     },
     /// The fault is not the design's: too little memory, a device that failed, a setting of the
-    /// mesh, a request to stop, or a call that does not fit. Designs without a file have this
-    /// refusal as well.
+    /// mesh, a request to stop, or a call that does not fit the cloth. For a design without a file,
+    /// all errors are of this kind.
     #[error(transparent)]
     Other(#[from] FinishError),
 }

@@ -21,8 +21,8 @@ use crate::yarns_file::{
 pub struct SavedYarns {
     /// The yarns.
     pub yarns: Yarns,
-    /// How the yarns go on beyond a repeat. For yarns that were saved without a repeat it says
-    /// which are closed and which are open.
+    /// How the yarns go on beyond a repeat. For yarns that were saved without a repeat, it says
+    /// only which are closed and which are open.
     pub boundary: Boundary,
 }
 

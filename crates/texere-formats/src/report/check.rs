@@ -15,13 +15,14 @@ use super::measures::Sets;
 use super::setts::{SettReport, setts};
 use crate::{Cloth, Design, Refusal};
 
-/// What is wrong with a cloth, where, and what would cure it. `texere check` prints it; `--json`
-/// prints it as it serializes, with these keys.
+/// What is wrong with a cloth, where, and what would cure it. `texere check` prints its
+/// [lines](Self::lines). With `--json` it prints the serialized report, whose keys are these
+/// fields.
 #[derive(Debug, Serialize)]
 pub struct CheckReport {
     name: String,
     clean: bool,
-    /// Contacts whose ratio is below this pierce.
+    /// Two yarns pierce one another at a contact whose ratio is below this number.
     touching: f64,
     #[serde(flatten)]
     faults: FaultsReport,
@@ -32,7 +33,7 @@ pub struct CheckReport {
     /// Only for woven cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
     setts: Option<Sets<SettReport>>,
-    /// Only for knits: the faults of the program.
+    /// Only for weft knits: the faults of the program.
     #[serde(skip_serializing_if = "Option::is_none")]
     machine: Option<MachineReport>,
     /// Only for knits: needles that never have a loop.
@@ -46,7 +47,7 @@ pub struct CheckReport {
     /// The faults in one phrase, if there are any.
     #[serde(skip)]
     verdict: Option<String>,
-    /// Those of the mesh that was measured.
+    /// The settings of the mesh that was measured.
     #[serde(skip)]
     settings: Settings,
 }
@@ -66,8 +67,8 @@ impl EmptyNeedles {
     }
 }
 
-/// The faults of a cloth's yarns, each none if there is no such fault. A clean cloth has none of
-/// them, and no error of the knitting machine.
+/// The faults of a cloth's yarns. A field is none if the cloth does not have the fault. A clean
+/// cloth has no such fault, and no error of the knitting machine.
 #[derive(Debug, Serialize)]
 struct FaultsReport {
     crowded: Option<CrowdReport>,
@@ -93,7 +94,7 @@ struct Apart {
     said: String,
 }
 
-/// Steps that a knitting machine could not do, and steps that may be mistakes.
+/// Faults of a knitting program: steps that a machine can't do, and steps that may be mistakes.
 #[derive(Debug, Serialize)]
 struct MachineReport {
     errors: Vec<String>,
@@ -101,7 +102,7 @@ struct MachineReport {
 }
 
 impl MachineReport {
-    /// None if the cloth is not knitted.
+    /// None if the cloth is not a weft knit.
     fn new(design: &Design) -> Option<Self> {
         design.structure.knitted()?;
         let said = |errors| {
@@ -138,10 +139,11 @@ struct Jammed {
 }
 
 impl CheckReport {
-    /// The report of a cloth, and of how it came to rest. `clearance` is its own, measured with
-    /// `settings`. Contacts that come short of touching by more than the share `accuracy` pierce;
-    /// 0.015 is usual, which makes contacts below [`CLEAR`](texere_contact::CLEAR) pierce. The
-    /// report has no cures before [`CheckReport::find_cures`].
+    /// The report of a cloth, and of how it came to rest. `clearance` is that of the cloth,
+    /// measured with `settings`. Two yarns pierce one another at a contact whose ratio is below 1 -
+    /// `accuracy`. The usual accuracy is 0.015: then contacts below
+    /// [`CLEAR`](texere_contact::CLEAR) pierce. The report has no cures before
+    /// [`CheckReport::find_cures`].
     #[must_use]
     pub fn new(
         cloth: &Cloth,
@@ -184,7 +186,7 @@ impl CheckReport {
     }
 
     /// The faults in one phrase with the cloth as its subject, such as "pierces itself, folds".
-    /// None of a clean cloth.
+    /// None for a clean cloth.
     #[must_use]
     pub fn verdict(&self) -> Option<&str> {
         self.verdict.as_deref()
@@ -197,11 +199,12 @@ impl CheckReport {
     }
 
     /// Looks for single changes of the design that cure the faults of `cloth`, the cloth of this
-    /// report. They are tried on cloth as it is woven, so for cloth that has settled only wider
-    /// spacings and thinner yarns count. `progress` gets the share that is done, from 0 to 1.
+    /// report. Changes of woven cloth are tried on the cloth as its structure places it. If the
+    /// cloth has settled, only wider spacings and thinner yarns count. Knits have no such cures.
+    /// More rings are tried for any cloth whose mesh is wrung or inside out. `progress` gets the
+    /// share that is done, from 0 to 1.
     ///
-    /// **Errors**: a [`Refusal`] where the cloth can't be measured, and where `progress` asked to
-    /// stop.
+    /// **Errors**: a [`Refusal`] if the cloth can't be measured, and if `progress` asked to stop.
     pub fn find_cures(
         &mut self,
         cloth: &Cloth,
@@ -354,7 +357,7 @@ impl From<&Faults> for FaultsReport {
 }
 
 impl FaultsReport {
-    /// Whether there is no fault that other spacings or yarns could cure.
+    /// Whether there is no fault that a change of the cloth or of its mesh could cure.
     fn is_none(&self) -> bool {
         let Self { crowded, pierces, folds, jams, apart: _, wrung, inside_out } = self;
         let drawn = wrung.is_none() && inside_out.is_none();

@@ -23,7 +23,7 @@ pub(crate) struct ClearanceReport {
     pub(crate) drawn: DrawnReport,
 }
 
-/// How the usual mesh is drawn between neighbouring rings.
+/// How a mesh is drawn between neighbouring rings.
 #[derive(Debug, Serialize)]
 pub(crate) struct DrawnReport {
     /// The least width of a tube half way between two rings, in radii.
@@ -53,7 +53,8 @@ pub(crate) struct CrowdReport {
     /// The thickest thread at the place.
     yarn: String,
     thickness_mm: f64,
-    /// The distance of that thread to the thread before.
+    /// The distance of that thread from the thread before it, or of the first thread from the
+    /// second.
     pitch_mm: Option<f64>,
     place_mm: [f64; 3],
     crossing: Option<Crossing>,
@@ -73,8 +74,8 @@ pub(crate) struct ContactReport {
     pub(crate) yarns: [String; 2],
     /// Half way between the two centrelines, mm.
     pub(crate) place_mm: [f64; 3],
-    /// The crossing next to which each of the two lies. Null in knits, at a yarn's end, and in a
-    /// turn of the weft.
+    /// The crossing next to which each of the two yarns lies. Null in knits, at a yarn's end, and
+    /// in a turn of the weft.
     crossings: [Option<Crossing>; 2],
 }
 

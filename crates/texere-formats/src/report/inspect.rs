@@ -1,4 +1,4 @@
-//! The report of a design: what it makes, and what is measured of that.
+//! The report of a design: what cloth it makes, and the measures of the cloth.
 
 use std::fmt;
 
@@ -20,7 +20,8 @@ use crate::{Cloth, Design, Refusal};
 const RUN_IN_MISS: f64 = 0.02;
 
 /// What a design makes: counts, size, yarn, weight, clearance, bends, warnings. `texere inspect`
-/// prints it; `--json` prints it as it serializes, with these keys.
+/// prints its [lines](Self::lines). With `--json` it prints the serialized report, whose keys are
+/// these fields.
 #[derive(Debug, Serialize)]
 pub struct InspectReport {
     name: String,
@@ -70,8 +71,7 @@ struct BarReport {
     /// for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_asked_mm: Option<f64>,
-    /// The length of yarn for a rack of 480 courses in the cloth, mm. None if yarns are only
-    /// counted.
+    /// The length of yarn for a rack of 480 courses in the cloth, mm. None without measures.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_mm: Option<f64>,
 }
@@ -92,8 +92,8 @@ struct ClothReport {
 struct WovenReport {
     ends: usize,
     picks: usize,
-    /// Whether crossing threads have room to pass; left out for cloth at rest, whose threads give
-    /// way.
+    /// Whether crossing threads have room to pass. It is left out for cloth at rest, whose threads
+    /// have given way.
     #[serde(skip_serializing_if = "Option::is_none")]
     jam: Option<JamsReport>,
     setts: Sets<SettReport>,
@@ -103,9 +103,10 @@ struct WovenReport {
 
 impl InspectReport {
     /// The report of a cloth, of how it came to rest, and of the mesh of `plan`, which is a plan of
-    /// the cloth's yarns. Without a [clearance](Cloth::clearance) it has only what is counted.
+    /// the cloth's yarns. Without a [clearance](Cloth::clearance) the report has counts but no
+    /// measures.
     ///
-    /// **Errors**: a [`Refusal`] where the measures can't be taken.
+    /// **Errors**: a [`Refusal`] if the measures can't be taken.
     pub fn new(
         cloth: &Cloth,
         mut settling: Option<SettlingReport>,
@@ -214,7 +215,7 @@ impl KnitReport {
         Self { loops: knit.loops(), courses, wales, bars: knit.bars().iter().map(bar).collect() }
     }
 
-    /// Warnings of bars whose yarn is longer or shorter than the design asks for.
+    /// Warnings of bars whose run-in differs from the design's by more than [`RUN_IN_MISS`].
     fn missed(&self) -> impl Iterator<Item = String> {
         (1..).zip(&self.bars).filter_map(|(number, bar)| {
             let (asked, reached) = (bar.run_in_asked_mm?, bar.run_in_mm?);

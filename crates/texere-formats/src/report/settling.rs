@@ -22,7 +22,7 @@ pub struct SettlingReport(Settling);
 enum Settling {
     Knit(KnitRestReport),
     Woven(WovenRestReport),
-    /// Woven cloth that can't come to rest at all, and is as it is woven.
+    /// Woven cloth whose crossings can't settle. Its threads are as the structure places them.
     Refused {
         refused: String,
     },
@@ -45,13 +45,15 @@ impl SettlingReport {
         }))
     }
 
-    /// Whether yarns are no longer as the structure places them.
+    /// Whether settling was carried out. If it was refused, the yarns are as the structure places
+    /// them.
     pub(super) const fn has_moved(&self) -> bool {
         !matches!(self.0, Settling::Refused { .. })
     }
 
-    /// Takes over the clearance of the whole cloth, measured afterwards, so that a report has one
-    /// figure. Settling itself measures only one repeat of woven cloth, and only yarns that touch.
+    /// Replaces the clearance that settling measured by that of the whole cloth, so that a report
+    /// does not show two. Settling measures only one repeat of woven cloth, and there looks only
+    /// for contacts below 0.99 of touching.
     pub(super) const fn measured(&mut self, clearance: &ClothClearance) {
         match &mut self.0 {
             Settling::Knit(report) => report.clearance = clearance.least(),

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
-/// Errors of writers. After an error there is no new file, and an old file is as it was.
+/// Errors of writers. After an error there is no new file, and an old file at the path is as it
+/// was.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -79,7 +80,8 @@ pub enum WriteError {
     /// The mesh has no triangles, such as that of a region without yarns.
     #[error("the mesh has no triangles: nothing lies in the box that it is of")]
     Empty,
-    /// The mesh has another number of vertices than its plan says, or they come out of order.
+    /// The mesh has another number of vertices than its plan says, or its vertices come out of
+    /// order.
     #[error("mesh has {given} vertices in order; {planned} were planned")]
     VertexCount {
         /// Number of vertices that came in order.

@@ -39,13 +39,20 @@ impl Format {
     ///
     /// **Errors**: [`WriteError::UnknownFormat`], which names all extensions.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
-        let path = path.as_ref();
-        let given = path.extension().unwrap_or_default();
-        Self::ALL.into_iter().find(|format| given.eq_ignore_ascii_case(format.extension())).ok_or_else(|| {
-            WriteError::UnknownFormat {
-                path: path.to_owned(),
-                known: Self::ALL.map(Self::extension).join(", "),
-            }
-        })
+        by_extension(path.as_ref(), Self::ALL, Self::extension)
     }
+}
+
+/// The one of `all` formats that the extension of `path` stands for, in upper or lower case.
+///
+/// **Errors**: [`WriteError::UnknownFormat`], which names all extensions.
+pub(super) fn by_extension<F: Copy, const N: usize>(
+    path: &Path,
+    all: [F; N],
+    extension: fn(F) -> &'static str,
+) -> Result<F, WriteError> {
+    let given = path.extension().unwrap_or_default();
+    all.into_iter().find(|format| given.eq_ignore_ascii_case(extension(*format))).ok_or_else(|| {
+        WriteError::UnknownFormat { path: path.to_owned(), known: all.map(extension).join(", ") }
+    })
 }

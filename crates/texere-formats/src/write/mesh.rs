@@ -3,7 +3,8 @@
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
-use texere_core::{Backend, Mesh, MeshPiece, Pipeline, PipelineError, Topology};
+use texere_core::backend::Run;
+use texere_core::{Backend, Material, Mesh, MeshPiece, Pipeline, PipelineError, Topology};
 
 use super::feed::Feed;
 use super::target::Target;
@@ -26,8 +27,9 @@ pub struct Written {
 /// any topology.
 ///
 /// **Errors**: [`WriteError`] for an extension that stands for no format of this build, for a mesh
-/// that the format can't hold, that has no triangles, does not match its plan or materials or is
-/// not finite, for a file that must not be replaced, and if the file system refuses.
+/// that the format can't hold, that has no triangles, that does not match its plan or its
+/// materials, or that has numbers that are not finite, for a file that must not be replaced, and if
+/// the file system refuses.
 ///
 /// ```
 /// use texere_core::backend::NullBackend;
@@ -117,9 +119,10 @@ pub fn stream(
     output: impl Into<Output>,
 ) -> Result<Written, WriteError> {
     let output = output.into();
-    let format = Format::from_path(output.path())?;
-    let (target, written) = streamed(pipeline, device, format, || Target::create(output))?;
-    Ok(Written { bytes: target.commit()?, ..written })
+    Format::from_path(output.path())?;
+    output.check()?;
+    let materials = pipeline.yarns().materials().clone();
+    run(pipeline.topology(Topology::Shared).into_run(device)?, &materials, output)
 }
 
 /// Runs a pipeline on `device` and writes its mesh to `out` piece by piece, from the current
@@ -148,24 +151,70 @@ pub fn stream_to(
     format: Format,
     out: impl Write + Seek,
 ) -> Result<Written, WriteError> {
-    let (target, written) = streamed(pipeline, device, format, || Target::within(out))?;
+    let materials = pipeline.yarns().materials().clone();
+    run_to(pipeline.topology(Topology::Shared).into_run(device)?, &materials, format, out)
+}
+
+/// Writes the mesh of a [run](Run) piece by piece, in the format that the extension of `output`
+/// stands for: for a program that has a plan already, where [`stream`] makes one. `materials` are
+/// those of the plan's yarns.
+///
+/// The plan may have any topology. With [`Topology::None`] or [`Topology::Shared`] the device
+/// writes no index for nothing: [`Plan::with_topology`](texere_core::backend::Plan::with_topology).
+///
+/// **Errors**: the errors of [`stream`].
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::sync::Arc;
+/// use texere_core::backend::{Plan, Run};
+/// use texere_core::{ControlPoint, Limits, Settings, Topology, Yarn, Yarns};
+/// use texere_cpu::ParallelBackend;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("yarn.ply");
+/// # let mut yarns = Yarns::builder();
+/// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// # let (yarns, device) = (yarns.build()?, ParallelBackend::open()?);
+/// let plan = Plan::new(yarns.layout().clone(), Settings::default())?;
+/// let plan = Arc::new(plan.with_topology(Topology::Shared));
+/// let run = Run::start(&device, plan, yarns.points(), Limits::default(), |_| ControlFlow::Continue(()))?;
+/// let written = texere_formats::write::run(run, yarns.materials(), &path)?;
+/// assert_eq!(written.vertices, 30);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run(run: Run<'_>, materials: &[Material], output: impl Into<Output>) -> Result<Written, WriteError> {
+    let output = output.into();
+    let format = Format::from_path(output.path())?;
+    let (target, written) = streamed(run, materials, format, || Target::create(output))?;
+    Ok(Written { bytes: target.commit()?, ..written })
+}
+
+/// Writes the mesh of a [run](Run) to `out` piece by piece, from the current position on: the bytes
+/// that [`run`] writes to a file. Afterwards the position of `out` is behind the last byte.
+///
+/// **Errors**: the errors of [`stream_to`].
+pub fn run_to(
+    run: Run<'_>,
+    materials: &[Material],
+    format: Format,
+    out: impl Write + Seek,
+) -> Result<Written, WriteError> {
+    let (target, written) = streamed(run, materials, format, || Target::within(out))?;
     Ok(Written { bytes: target.close()?, ..written })
 }
 
-/// Runs a pipeline and writes its mesh to the target that `start` gives. Returns the target, which
-/// the caller completes, and how much was written, with 0 for the bytes.
+/// Writes the mesh of a run to the target that `start` gives. Returns the target, which the caller
+/// completes, and how much was written, with 0 for the bytes.
 fn streamed<W: Write + Seek>(
-    pipeline: Pipeline<'_>,
-    device: &dyn Backend,
+    run: Run<'_>,
+    materials: &[Material],
     format: Format,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<(Target<W>, Written), WriteError> {
-    let pipeline = pipeline.topology(Topology::Shared);
-    let plan = pipeline.plan()?;
-    let chunks = plan.chunks(&pipeline.limits_on(device)).map_err(PipelineError::from)?;
-    let materials = pipeline.yarns().materials().clone();
-    let mut feed = Feed::open(format, start()?, &plan, chunks, &materials)?;
-    let answer = pipeline.stream(device, |chunk, piece| {
+    let (plan, limits) = (run.plan().clone(), run.limits());
+    let chunks = || plan.chunks(&limits).map_err(PipelineError::from);
+    let mut feed = Feed::open(format, start()?, &plan, chunks()?, materials)?;
+    let answer = run.stream(chunks()?, |chunk, piece| {
         let fed = match piece {
             MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),
             _ => Ok(()),

@@ -35,7 +35,7 @@ pub(super) trait MeshWriter<W: Write + Seek> {
 }
 
 /// The yarns of `count` vertices of a chunk, from number `first` on. Returns runs of vertices of
-/// one yarn in order, each with its yarn. Vertices are counted from `first`.
+/// one yarn in order, each with its yarn. The runs count vertices from `first`.
 pub(super) fn yarn_runs(
     chunk: &Chunk,
     sides: u32,

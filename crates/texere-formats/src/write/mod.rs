@@ -8,7 +8,10 @@
 //!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
-//! or as texere's own [design file](fn@toml), which are read again.
+//! or as texere's own [design file](fn@toml). The readers of texere read both.
+//!
+//! Centrelines are written as [curves](fn@curves): BCC (`.bcc`) and USD's text form (`.usda`), for
+//! simulators and renderers.
 //!
 //! [Yarns](fn@yarns) are saved in `.yarns` files. They are read again to the bit, so that cloth at
 //! rest need not settle again.
@@ -16,10 +19,10 @@
 //! A file does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its
 //! chunks are cut. The triangles follow from the plan, so no index has to come from a device. A
 //! ring that chunks repeat is written once. The triangles of a yarn therefore share vertices from
-//! its first ring to its last, and a reader that joins no vertices by itself gets one piece. Only
-//! caps have vertices of their own, because their normals differ from those of the rings that they
-//! close. Their positions are equal to the ring's to the bit. All yarns share an index pattern,
-//! which GLB holds only once. This halves the file.
+//! its first ring to its last. Even a reader that does not join equal vertices gets each yarn as
+//! one piece. Only caps have vertices of their own, because their normals differ from those of the
+//! rings that they close. Their positions are equal to the ring's to the bit. All yarns share an
+//! index pattern, which GLB holds only once. This halves the file.
 //!
 //! A file is written beside its target and renamed when it is complete. An error, a cancellation or
 //! a panic leaves no new file, and an older file of that name stays as it was. A program that
@@ -31,6 +34,7 @@
 //! Twins for meshes need a writer that seeks, because they go back to fill in values that are known
 //! last.
 
+mod curves;
 #[cfg(feature = "wif")]
 mod design;
 #[cfg(feature = "pictures")]
@@ -55,6 +59,7 @@ mod tests;
 mod unfinished;
 mod yarns;
 
+pub use curves::{CurveFormat, curves, curves_to};
 #[cfg(feature = "toml")]
 pub use design::{toml, toml_to};
 #[cfg(feature = "wif")]
@@ -66,7 +71,7 @@ pub use draft::{
 pub use error::WriteError;
 pub use file::file;
 pub use format::Format;
-pub use mesh::{Written, mesh, mesh_to, stream, stream_to};
+pub use mesh::{Written, mesh, mesh_to, run, run_to, stream, stream_to};
 pub use output::Output;
 #[cfg(feature = "pictures")]
 pub use picture::{picture, picture_to};

@@ -26,8 +26,8 @@ const VERTICES_MAX: u64 = u32::MAX as u64;
 /// A PLY file that is being written.
 ///
 /// The file has all vertices before all faces, and tubes before caps, but the mesh comes chunk by
-/// chunk. The file therefore grows in four places. Faces are not left to the end. They are half of
-/// the work, which could then neither report progress nor be cancelled.
+/// chunk. The file therefore grows in four places. Faces are not left to the end, because they are
+/// half of the work: at the end, that half could neither report progress nor be cancelled.
 #[derive(Debug)]
 pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,

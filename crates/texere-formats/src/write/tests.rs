@@ -40,7 +40,8 @@ impl Seek for Failing {
     }
 }
 
-/// Two capped yarns, one of 8,001 rings: several times what is buffered, and cut over chunks.
+/// The mesh of two capped yarns, in several chunks. One yarn has 8,001 rings, several times what a
+/// target buffers, and is cut over chunks.
 fn mesh() -> Mesh {
     let mut yarns = Yarns::builder();
     for (count, material) in [(4001, [200, 30, 30]), (9, [30, 30, 200])] {

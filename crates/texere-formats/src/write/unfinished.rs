@@ -74,8 +74,8 @@ pub fn abandon() {
 /// A file that takes its place with [`Unfinished::finish`].
 #[derive(Debug)]
 pub(super) struct Unfinished {
-    // The file is dropped before its entry in the registry, so that at every moment one of the two
-    // removes it.
+    // The file is dropped before its entry in the registry, so that at every moment either the drop
+    // or [`abandon`] removes the file.
     file: NamedTempFile,
     entry: Entry,
     place: FilePlace,

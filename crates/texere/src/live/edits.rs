@@ -1,4 +1,4 @@
-//! Edits of a live fabric: lifts, yarns, tension, structures, colours.
+//! Edits of a live fabric: its materials, lifts, yarns, tension and structure.
 
 use std::ops::Range;
 
@@ -141,8 +141,8 @@ impl Live {
         Ok(())
     }
 
-    /// Replaces all yarns. Yarns that do not change are not made again. From then on the fabric is
-    /// known by its yarns alone, and its lifts can't be set.
+    /// Replaces all yarns. Yarns that do not change are not made again. From then on the fabric has
+    /// no weave, and its lifts can't be set.
     ///
     /// **Errors**: [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and the
     /// errors of [`Live::given`].

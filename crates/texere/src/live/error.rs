@@ -10,7 +10,8 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LiveError {
-    /// A lift was set in a fabric that is not woven, or that is known by its yarns alone.
+    /// A lift was set in a fabric without a weave: a knit, or a fabric whose yarns were given or
+    /// set.
     #[error(
         "there is no weave to lift in: the fabric is not woven, or is known by its yarns alone since they were set"
     )]

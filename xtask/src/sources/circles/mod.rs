@@ -47,7 +47,7 @@ fn told(read: &Crate, imports: &Imports, circle: &BTreeSet<usize>) -> String {
     told
 }
 
-/// Strongly connected components of more than one of `files` files.
+/// The strongly connected components of `files` files that have more than one file.
 fn circles(files: usize, imports: &Imports) -> BTreeSet<BTreeSet<usize>> {
     let reached: Vec<_> = (0..files).map(|file| reached(file, imports)).collect();
     let reached = &reached;
@@ -122,8 +122,8 @@ mod tests {
         }
     }
 
-    /// A module is part of a circle if it defines an item that its own modules name, and not if it
-    /// re-exports it.
+    /// A module that defines an item which its inner modules name is part of a circle. A module
+    /// that only re-exports the item is not.
     #[test]
     fn what_only_passes_on_is_no_part() {
         let passes_on = "mod a;\nmod b;\nuse a::A;\npub use b::B;";

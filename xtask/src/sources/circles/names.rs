@@ -62,7 +62,8 @@ impl Crate {
                     self.named(module, name, left).into_iter().map(|meaning| (meaning, name)).collect()
                 }
             });
-            // A name with further names behind it is the module, if there is one.
+            // If a module and another item have this name, and further names follow it, the module
+            // is meant.
             let mut inner: Vec<_> = inner.collect();
             if !further.is_empty() && inner.iter().any(|inner| matches!(inner.0, Meaning::Module(_))) {
                 inner.retain(|inner| matches!(inner.0, Meaning::Module(_)));
@@ -88,8 +89,9 @@ impl Crate {
         if !found.is_empty() {
             return found;
         }
-        // A name that the module has itself hides those that a `*` brings in. This also ends the
-        // search for the path before a `*`, which would otherwise go through every `*` again.
+        // A name that the module has itself hides those that a `*` brings in. If such a name is
+        // found, the search ends here and follows no `*`. Otherwise the search for the path before
+        // a `*` would go through every `*` again.
         for used in module.uses.iter().filter(|used| used.name == "*") {
             for (meaning, _) in self.meanings(number, &used.path, left) {
                 if let Meaning::Module(all) = meaning {

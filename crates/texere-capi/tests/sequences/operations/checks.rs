@@ -1,6 +1,6 @@
 //! Operations that measure and check cloth, and that find out what a ray hits.
 
-use std::ptr::null;
+use std::ptr::{null, null_mut};
 
 use texere_c::*;
 
@@ -8,22 +8,29 @@ use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// A number of few things, or one that there is not.
+/// The number of one of few things, or a number that is too high.
 fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 0, 1, u64::MAX])
 }
 
-/// A ray down onto the cloth, or one that no ray is.
+/// A ray down onto the cloth, or an invalid ray.
 pub(super) fn ray(caller: &mut Caller<'_>) -> texere_ray {
     let [x, y] = [(); 2].map(|()| caller.random.number(0.6));
     texere_ray { origin: [x, y, 9.0], direction: [0.0, 0.0, -1.0] }
 }
 
-/// A place on a yarn, or one that no yarn has.
-pub(super) fn hit(caller: &mut Caller<'_>) -> texere_hit {
-    let (found, yarn) = (caller.random.pick(&[1, 1, 1, 0]), caller.random.pick(&[0, 1, 2, u32::MAX]));
-    let (interval, t) = (caller.random.pick(&[0, 1, u32::MAX]), caller.random.number(0.5));
-    texere_hit { found, yarn, interval, t, ..texere_hit::default() }
+/// What a ray has hit, or a place that no yarn has.
+pub(super) fn hit(caller: &mut Caller<'_>, pick: impl FnOnce(&texere_ray, *mut texere_hit)) -> texere_hit {
+    let (ray, mut hit) = (ray(caller), texere_hit::default());
+    pick(&ray, &mut hit);
+    match caller.random.below(8) {
+        0 => texere_hit { found: caller.random.pick(&[0, 1]), ..hit },
+        1 => texere_hit { yarn: caller.random.pick(&[0, 1, 2, u32::MAX]), ..hit },
+        2 => texere_hit { interval: caller.random.pick(&[0, 1, u32::MAX]), ..hit },
+        3 => texere_hit { t: caller.random.number(0.5), ..hit },
+        4 => texere_hit { position: [(); 3].map(|()| caller.random.number(0.6)), ..hit },
+        _ => hit,
+    }
 }
 
 pub(super) fn operations() -> Vec<Operation> {
@@ -41,7 +48,15 @@ pub(super) fn operations() -> Vec<Operation> {
             caller.place(texere_hit::default(), |hit| texere_picker_pick(picker, &ray, hit))
         };
         texere_cloth_place, 3, |caller| {
-            let (cloth, hit, mut words) = (caller.handle(), hit(caller), [0; 200]);
+            let (cloth, mut words): (*const texere_cloth, _) = (caller.handle(), [0; 200]);
+            let hit = hit(caller, |ray, hit| {
+                let (mut yarns, mut picker) = (null_mut(), null_mut());
+                texere_cloth_yarns(cloth, &mut yarns);
+                texere_picker_new(yarns, null(), &mut picker);
+                texere_picker_pick(picker, ray, hit);
+                texere_picker_free(picker);
+                texere_yarns_free(yarns);
+            });
             let size = caller.random.pick(&[0, 1, 200]);
             caller.place(0, |length| texere_cloth_place(cloth, &hit, words.as_mut_ptr(), size, length))
         };

@@ -9,12 +9,12 @@ use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// A number of an end, a pick, a yarn or a material, or one that there is not.
+/// The number of an end, a pick, a yarn or a material, or a number that is too high.
 fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 1, 1, 2, u64::MAX])
 }
 
-/// Points of a yarn: some more than it has, or fewer than any has.
+/// Control points of a yarn: a few more than it has, or too few for a yarn.
 fn points(caller: &mut Caller<'_>) -> Vec<texere_point> {
     let count = caller.random.pick(&[0, 2, 5, 9, 60]);
     let point = |number| {
@@ -44,8 +44,8 @@ fn meshes() -> Vec<Operation> {
             caller.out(|out| texere_live_of_yarns(yarns, device, null(), out))
         };
         texere_live_update, 5, |caller| {
-            let (live, update) = (caller.handle(), caller.sized());
-            caller.place(update, |update| texere_live_update(live, update))
+            let (live, run, update) = (caller.handle(), caller.handle_or_null(), caller.sized());
+            caller.place(update, |update| texere_live_update(live, run, update))
         };
         texere_live_counts, 3, |caller| {
             let (live, counts) = (caller.handle(), caller.sized());
@@ -87,7 +87,10 @@ fn meshes() -> Vec<Operation> {
             caller.place(texere_hit::default(), |hit| texere_live_pick(live, &ray, hit))
         };
         texere_live_place, 3, |caller| {
-            let (live, hit, mut words) = (caller.handle(), hit(caller), [0; 200]);
+            let (live, mut words): (*const texere_live, _) = (caller.handle(), [0; 200]);
+            let hit = hit(caller, |ray, hit| {
+                texere_live_pick(live, ray, hit);
+            });
             let size = caller.random.pick(&[0, 1, 200]);
             caller.place(0, |length| texere_live_place(live, &hit, words.as_mut_ptr(), size, length))
         };

@@ -1,6 +1,6 @@
-//! An operation for each function of the library: a call with arguments by chance.
+//! An operation for each function of the library: a call with random arguments.
 
-/// Operations of a file that lists them.
+/// Makes operations of a list of names, weights and calls.
 macro_rules! table {
     ($($name:ident, $weight:literal, |$caller:tt| $call:expr;)*) => {
         vec![$(Operation {
@@ -36,7 +36,7 @@ use crate::common::sized;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Operation {
     pub(crate) name: &'static str,
-    /// How often it is called, beside the others.
+    /// How often it is called, relative to the other operations.
     pub(crate) weight: usize,
     /// Whether the function can fail.
     pub(crate) fails: bool,
@@ -45,8 +45,8 @@ pub(crate) struct Operation {
     pub(crate) call: fn(&mut Caller<'_>) -> texere_status,
 }
 
-/// A design that does not settle and has a warning, since its threads are jammed; a knit; a design
-/// that settles; and one that is none.
+/// Four texts: woven cloth that does not settle and has a warning, because its threads are jammed;
+/// a knit; woven cloth that settles; and an invalid design.
 pub(crate) const DESIGNS: [&str; 4] = [
     "weave = { notation = \"plain\", ends = 3, picks = 2 }\nfinish.settle = false\n\
      yarns.a.diameter_mm = 0.2\nwarp = { yarns = [\"a\"], spacing_mm = 0.3 }\n\
@@ -58,7 +58,7 @@ pub(crate) const DESIGNS: [&str; 4] = [
     "weave = { notation = \"plain\", ends = 2, picks = -2 }\n",
 ];
 
-/// Names of files in the test's folder. Those of later kinds are written by other operations.
+/// Names of files in the test's folder. Other operations write files of the later kinds.
 const FILES: [&str; 8] = ["a.toml", "a.wif", "a.yarns", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
 
 /// Reads a design from memory.
@@ -274,7 +274,7 @@ fn yarns() -> Vec<Operation> {
                 twist: if caller.random.one_in(2) { null() } else { twist.as_ptr() },
                 ..caller.sized()
             };
-            // Points that there are not can't be offered.
+            // A call with these offsets would read past the end of `points`, which is not allowed.
             if offsets[1] > 8 && arrays.yarns == 1 {
                 return caller.out(|out| texere_yarns_new(null(), out));
             }
@@ -357,7 +357,7 @@ fn plans() -> Vec<Operation> {
     }
 }
 
-/// A picture of few pixels by chance.
+/// A random picture of few pixels.
 fn picture(caller: &mut Caller<'_>) -> texere_picture {
     let mut usual = sized();
     // SAFETY: the place lives as long as the call.
@@ -390,7 +390,7 @@ fn pictures() -> Vec<Operation> {
         texere_renderer_open, 1, |caller| {
             let name = caller.text(&["auto", "wgpu", "cpu"]);
             let renderer: *mut texere_renderer = caller.live();
-            // A device takes long to open, so that one will do in most cases.
+            // A device takes long to open, so a caller that has one seldom opens another.
             if !renderer.is_null() && caller.random.below(4) > 0 {
                 return texere_renderer_open(name.pointer(), name.length(), null_mut());
             }

@@ -1,4 +1,4 @@
-//! Operations that make what a plan gives beside its mesh, and those of sessions.
+//! Operations on outputs of a plan other than its mesh, and operations on sessions.
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
@@ -9,17 +9,17 @@ use super::Operation;
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// Takes bytes, or refuses them where `user` is 1.
+/// Takes bytes, or refuses them if `user` is 1.
 unsafe extern "C" fn take_bytes(user: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
     user.addr() as i32
 }
 
-/// Takes a piece, or refuses it where `user` is 1.
+/// Takes a piece, or refuses it if `user` is 1.
 unsafe extern "C" fn take_piece(user: *mut c_void, _: *const texere_piece) -> i32 {
     user.addr() as i32
 }
 
-/// A plan by chance, a run or none, and the sizes of the plan's mesh.
+/// A random plan, a run or none, and the sizes of the plan's mesh.
 fn planned(caller: &mut Caller<'_>) -> (*mut texere_plan, *mut texere_run, texere_counts) {
     let (plan, run, mut counts) = (caller.handle(), caller.handle_or_null(), sized());
     // SAFETY: the place lives as long as the call.
@@ -27,7 +27,8 @@ fn planned(caller: &mut Caller<'_>) -> (*mut texere_plan, *mut texere_run, texer
     (plan, run, counts)
 }
 
-/// Calls with a view of `count` values, or now and then with one that is too small, or with none.
+/// Makes `call` with a view of `count` values, or sometimes with a view that is too small or with
+/// none.
 fn viewed<T>(
     caller: &mut Caller<'_>,
     count: u64,

@@ -1,11 +1,11 @@
-//! Operations that make structures by arrays.
+//! Operations that make designs from arrays.
 
 use texere_c::*;
 
 use super::Operation;
 use crate::caller::{Caller, Text};
 
-/// Materials and sections by chance, which `looks` refers to.
+/// Random materials and sections, which `looks` refers to.
 struct Looks {
     name: Text,
     materials: Vec<texere_material>,
@@ -18,7 +18,8 @@ impl Looks {
         let name = caller.text(&["cotton", "", "laine d'été"]);
         let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let mut looks = Box::new(Self { name, materials: Vec::new(), sections: Vec::new(), corners });
-        // Texts that are refused only count where there is a material that has one.
+        // There is always a material with the name, because an invalid name is only refused if a
+        // material has it.
         let text = &looks.name;
         looks.materials.push(texere_material {
             name: text.pointer(),

@@ -97,7 +97,7 @@ pub enum ChartError {
         /// The most needles allowed in either direction.
         limit: u32,
     },
-    /// A yarn with too large a number. The machine has fewer carriers.
+    /// A yarn whose number is too large, because the machine has fewer carriers.
     #[error("the chart's yarn {yarn}, counted from 0, is none of {limit}")]
     Yarn {
         /// The yarn, counted from 0.

@@ -10,9 +10,9 @@ use crate::weft::{Bed, CarrierSet, Direction, Instruction, Needle, Operation, Pr
 const HALF: f64 = 0.5;
 
 impl Chart {
-    /// The program of one repeat of the chart. It has a carrier for each number of a yarn, from 0
-    /// to the largest of the courses. Each carrier goes to the right in its first course, to the
-    /// left in its next one, and so on.
+    /// The program of one repeat of the chart. It has a carrier for each yarn number, from 0 to the
+    /// largest that a course has. Each carrier goes to the right in its first course, to the left
+    /// in its next one, and so on.
     ///
     /// The source of an operation is row × wales + column of its cell, both counted from 0, with
     /// row 0 at the bottom. In a Jacquard picture these are the row and the column of the pixel.
@@ -116,7 +116,7 @@ impl Knitter<'_> {
         Ok(())
     }
 
-    /// Transfers loops to the bed on which their wale knits next.
+    /// Transfers loops to the bed on which their wale knits in this course.
     fn change_beds(&mut self, course: usize, cells: &[Cell]) {
         for (wale, cell) in cells.iter().enumerate() {
             let wanted = match cell {
@@ -157,8 +157,8 @@ impl Knitter<'_> {
         }
     }
 
-    /// Moves loops to other needles by way of the back bed. Loops that come back from the back bed
-    /// first lie in front.
+    /// Moves loops to other needles by way of the back bed. The loops that are the first to come
+    /// back from the back bed lie in front.
     fn move_loops(&mut self, course: usize, cells: &[Cell]) {
         let mut moves = Vec::new();
         for (wale, cell) in cells.iter().enumerate() {

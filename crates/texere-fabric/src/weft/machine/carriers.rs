@@ -60,8 +60,8 @@ pub(super) struct Carriers {
     /// The yarns. Until the program ends, floats have the number of their pass in place of their
     /// course.
     pub(super) strands: Vec<Strand>,
-    /// The last step of each yarn that was caught before the yarn went on: the index of the strand,
-    /// and the index of the step.
+    /// For each time that a yarn was caught, the last step before the yarn went on: the index of
+    /// the strand, and the index of the step.
     pub(super) caught: Vec<[usize; 2]>,
     repeats: bool,
 }

@@ -38,7 +38,8 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
         sweep(before, aboves, &mut courses, 0);
         added = top(&courses) - under;
     }
-    // The last height always suffices, because no closed chain of loops has more passes.
+    // The last height, the number of passes, always suffices: a chain of passes that comes back to
+    // its first pass has no more.
     let heights = [added.max(1), added + 1, before.len().max(1) as u32];
     for height in heights {
         courses.fill(0);

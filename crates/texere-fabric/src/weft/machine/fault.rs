@@ -14,13 +14,13 @@ pub enum FaultKind {
     CarrierNotIn,
     /// A carrier that is already in is brought in. The machine leaves it as it is.
     CarrierIn,
-    /// The hook takes a carrier, in or out, while it still holds the named one. The machine lets it
-    /// hold both.
+    /// The hook brings a carrier in, or takes it out, while it still holds the yarn of the named
+    /// carrier. The machine goes on as if the hook could do both.
     HookHolds(String),
     /// The hook releases a carrier that it does not hold. The machine does nothing.
     HookWithout,
-    /// A carrier that is not in is taken out. In a repeat its next stitch begins a new yarn.
-    /// Otherwise the machine does nothing.
+    /// A carrier that is not in is taken out. In a repeat its next stitch begins a new yarn. In any
+    /// other program the machine does nothing.
     OutWithoutIn,
     /// The beds are racked further than the machine's limit. The program goes on with that rack. A
     /// rack of more than [`NEEDLE_MAX`](super::super::NEEDLE_MAX) needles is left out.

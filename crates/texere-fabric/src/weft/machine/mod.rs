@@ -20,9 +20,9 @@ use crate::weft::WeftError;
 use beds::{Beds, Held, Slot};
 use run::Run;
 
-/// The most rounds in which a repeat is knitted until the same loops hang on needles at the end of
-/// each round. Most programs take two rounds. If loops are transferred in every round without being
-/// knitted, a program takes more.
+/// The most rounds that a repeat is knitted after its first round, until the same loops hang on
+/// needles at the end of two consecutive rounds. Most programs take two rounds in all. If loops are
+/// transferred in every round without being knitted, a program takes more.
 const ROUNDS_MAX: u32 = 8;
 
 /// The result of a knitting program.
@@ -30,9 +30,9 @@ const ROUNDS_MAX: u32 = 8;
 pub struct Knit {
     /// The loops and yarns of the cloth.
     pub stitches: Stitches,
-    /// Faults of the program in the order of their sources. There are 1000 at most, and one each of
-    /// [`FaultKind::CastOn`] and [`FaultKind::OnlyLoop`]. For a repeat they are the faults of its
-    /// last round, which occur again in every later round.
+    /// Faults of the program in the order of their sources. There are 1000 at most, apart from one
+    /// [`FaultKind::CastOn`] and one [`FaultKind::OnlyLoop`]. For a repeat they are the faults of
+    /// its last round, which occur again in every later round.
     pub faults: Vec<Fault>,
     /// Number of faults that are not listed.
     pub unlisted: u64,
@@ -42,9 +42,9 @@ impl Machine {
     /// Runs a program.
     ///
     /// A program that is a repeat runs round after round, until the same loops hang on its needles
-    /// at the end of each round, or for 8 rounds. The last round gives the cloth. Each pass of a
-    /// carrier is a strand that goes on in the repeat beside it, unless the program itself brings
-    /// the carrier in.
+    /// at the end of two consecutive rounds, but for at most 8 rounds after the first. The last
+    /// round gives the cloth. Each pass of a carrier is a strand that goes on in the repeat beside
+    /// it, unless the program itself brings the carrier in.
     ///
     /// No fault stops the machine. [`FaultKind`] says what the machine does instead.
     ///
@@ -204,7 +204,9 @@ fn left(run: &mut Run<'_>, repeats: bool) {
     }
     for (index, stack) in hung {
         let (needle, slot) = (run.beds.needle(index), Slot { index, repeat: 0 });
-        // The first round may begin with loops on other needles than later rounds do.
+        // A loop of the first or the second round that still hangs here after all rounds was never
+        // knitted. Loops of the second round count as well, because the first round may begin with
+        // loops on other needles than later rounds do.
         if repeats && stack.iter().any(|held| run.round - held.round + 1 >= ROUNDS_MAX) {
             run.at_source(run.loops[stack[0].number as usize].source);
             run.fault(FaultKind::NeverKnits, Some(needle), None);

@@ -19,7 +19,8 @@ const NEAR: f64 = 0.99;
 /// The clearance with which the rounds may end.
 const ENOUGH: f64 = 0.986;
 
-/// The radius that every bend is brought to, as a multiple of how far the thread reaches into it.
+/// The radius that every bend is brought to, as a multiple of the distance by which the thread
+/// reaches into the bend.
 const BENDS_WANTED: f64 = 1.003;
 
 /// The most rounds in which threads are made thinner.
@@ -110,9 +111,9 @@ fn changed(before: &Yarns, after: &Yarns) -> Vec<bool> {
     (0..differs.len()).map(near).collect()
 }
 
-/// For each control point, whether the interval that begins there is measured. Intervals that are
-/// copies of others are not: only those at crossings of the first repeat and some more threads, and
-/// of the last threads, are measured.
+/// For each control point, whether the interval that begins there is measured. Only intervals at
+/// crossings of the first repeat and a few more threads, and of the last threads, are measured,
+/// because the other intervals are copies of them. Intervals beside no crossing are measured, too.
 fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
     let [ends, picks] = [piece.warp().len(), piece.weft().len()];
     let counts =
@@ -166,8 +167,8 @@ fn thin(
                 (dz / f64::from(point.half_height())).powi(2),
             );
             let (wide, high) = (wide / (wide + high), high / (wide + high));
-            // These losses of width and height have the least sum of squares among all that,
-            // weighted by `wide` and `high`, make up what is lacking.
+            // Losses of width and height, weighted by `wide` and `high`, have to make up what is
+            // lacking. The two losses below have the least sum of squares among all losses that do.
             let both = wide * wide + high * high;
             keep(place, [1.0 - lacking * wide / both, 1.0 - lacking * high / both]);
         }

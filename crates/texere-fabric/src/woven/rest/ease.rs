@@ -10,7 +10,8 @@ const EASINGS: usize = 40;
 /// The step of a point in a round, as a share of its second difference in height.
 const MOVED: f64 = 0.1;
 
-/// The radius over how far the thread reaches into the bend from which a bend needs no easing.
+/// A bend needs no easing if its radius is at least this multiple of the distance by which the
+/// thread reaches into it.
 const WIDE: f64 = 1.02;
 
 /// Index of the last stop of a change of sides, at the second crossing.

@@ -39,8 +39,8 @@ pub struct WovenRest {
     /// The least clearance of surfaces, before any thread was made thinner and afterwards. It is
     /// 0.99 at most, because wider contacts are not looked for.
     pub clearance: [f64; 2],
-    /// The least radius of curvature over how far the thread reaches into the bend. It is 1 at
-    /// most, because wider bends are not looked for.
+    /// The tightest bend: its radius of curvature over the distance by which the thread reaches
+    /// into the bend. It is 1 at most, because wider bends are not looked for.
     pub bend: f64,
     /// Number of rounds in which threads were made thinner.
     pub rounds: u32,
@@ -55,8 +55,8 @@ pub struct WovenRest {
 
 impl Woven {
     /// The problem of the cloth's crossings: the smallest repeat of the cloth, or the whole cloth
-    /// if nothing repeats. The last threads lie beside the first ones, so that something holds
-    /// every edge.
+    /// if nothing repeats. In the problem the last threads lie beside the first ones, so that
+    /// something holds every edge.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings

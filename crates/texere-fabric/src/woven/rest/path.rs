@@ -234,14 +234,15 @@ impl<'a> Way<'a> {
         [x + half_height * s, b * b * c / reach + half_height * c]
     }
 
-    /// For both crossings, the distance that the thread has from touching the crossed thread. Other
-    /// threads may hold the two apart.
+    /// For both crossings, the gap between the thread and the crossed thread, mm. Other threads may
+    /// hold the two apart.
     fn lifts(&self) -> [f64; 2] {
         self.stations.map(|at| at.side * (at.z - at.crossed_z) - at.crossed[1] - at.half_height)
     }
 }
 
-/// The share of a lift that is left after `share` of half the way to the other crossing.
+/// The share of a lift that is left on the way to the other crossing. `share` is the part of half
+/// the way that the thread has gone.
 fn fading(share: f64) -> f64 {
     let left = (1.0 - share).clamp(0.0, 1.0);
     left * left * (3.0 - 2.0 * left)

@@ -9,12 +9,13 @@ use crate::reach::Reach;
 use crate::{Drawdown, Thread, Woven};
 
 /// The part of a cloth that comes to rest: the ends and picks after which its threads and crossings
-/// repeat. A cloth that does not repeat is its own repeat. Its last threads lie beside its first
-/// ones, so that something holds its edges.
+/// repeat. A cloth that does not repeat is its own repeat. In the problem the last threads of the
+/// repeat lie beside the first ones, so that something holds its edges.
 pub(super) struct Problem {
     pub(super) repeat: [usize; 2],
     pub(super) crossings: Crossings,
-    /// Half width and half height of each thread's room, as multiples of those of the thread.
+    /// Half width and half height of each thread's room, as multiples of the thread's half width
+    /// and half height.
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The level of each thread of the repeat among its set.
     pub(super) levels: [Vec<u32>; 2],
@@ -52,8 +53,8 @@ impl Problem {
     }
 }
 
-/// Half width and half height of the room that each thread's section takes, as multiples of those
-/// of the thread.
+/// Half width and half height of the room that each thread's section takes, as multiples of the
+/// thread's half width and half height.
 fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
     let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
     [cloth.warp(), cloth.weft()].map(|threads| {

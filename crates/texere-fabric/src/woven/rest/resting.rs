@@ -284,8 +284,8 @@ impl<'a> Placing<'a> {
     }
 
     /// Calls `stop` with the points from a thread's outermost crossing to the place where the
-    /// thread is cut off. With `upper` this is the end at the last crossed threads, otherwise the
-    /// end at the first ones.
+    /// thread is cut off. `upper` says at which edge this is: at the last crossed threads if it is
+    /// set, and at the first crossed threads if not.
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
@@ -301,7 +301,7 @@ impl<'a> Placing<'a> {
     }
 
     /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the
-    /// widths of the end and the pick.
+    /// sum of the widths of end and pick.
     fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
         let ends = self.cloth.warp().len();

@@ -3,8 +3,9 @@
 /// Control points between two crossings where a thread changes sides.
 ///
 /// Three and five were tried on cloths as mills weave them. With three the cloths come to 0.945 to
-/// 0.99 of touching, with five to 0.955 to 0.994. In the certificate, cloths with three lose up to
-/// 6 % of their area, cloths with five up to 4 %.
+/// 0.99 of touching, with five to 0.955 to 0.994. When threads are then made thinner
+/// (`certificate.rs`), cloths with three points lose up to 6 % of their area, and cloths with five
+/// up to 4 %.
 pub(super) const CHANGE_POINTS: usize = 5;
 
 /// A control point of a thread's path, mm.

@@ -10,15 +10,17 @@ use texere_core::crossings::Set;
 use super::certificate::crop;
 use crate::{BySet, Finish, FinishError, Woven};
 
-/// The least crimp that is left of threads that are pulled straight.
+/// The least crimp that threads may be pulled to. With less they count as straight, and the stretch
+/// is refused.
 const STRAIGHT: f64 = 0.002;
 
 /// The largest difference between the crimp of the pulled threads and the crimp that keeps their
 /// length.
 const NEAR: f64 = 2e-4;
 
-/// The largest factor by which the ratio of both sets' tautness changes, as a natural logarithm. It
-/// takes relaxed cloth to the limit of [`Finish::taut`], 10.
+/// The largest factor by which the ratio of both sets' tautness changes, as a natural logarithm. In
+/// relaxed cloth, where both sets have a tautness of 1, it leads to about 10, the limit of
+/// [`Finish::taut`].
 const TAUTER: f64 = 4.6;
 
 /// Number of halvings of the range of tautness.
@@ -26,7 +28,7 @@ const HALVINGS: u32 = 16;
 /// Number of times in each halving that the cloth's size across the stretch is adjusted.
 const GIVES: u32 = 3;
 
-/// The stretch that is asked of a cloth.
+/// A stretch of a cloth along one set of its threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
     /// The set along which the cloth is pulled.
@@ -37,12 +39,12 @@ pub struct Stretch {
 }
 
 impl Woven {
-    /// The cloth stretched along one set of its threads, with a `finish` whose tensions go with the
-    /// stretch. All threads keep the lengths that they have when this cloth comes to rest with the
-    /// given `finish`. Threads that are pulled straighten, the threads that cross them take their
-    /// crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to rest.
-    /// `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the share
-    /// of the work done, and `Break` ends it within one pass.
+    /// The cloth stretched along one set of its threads, and `finish` with the tautness that its
+    /// threads then have. All threads keep the lengths that they have when this cloth comes to rest
+    /// with the given `finish`. Threads that are pulled straighten, the threads that cross them
+    /// take their crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to
+    /// rest. `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the
+    /// share of the work done, and `Break` ends it within one pass.
     ///
     /// **Errors**: [`FinishError::Stretch`] for a factor outside its limits, or if threads would be
     /// straight or jammed before the cloth has that length. [`FinishError::Fabric`] with the errors

@@ -48,7 +48,7 @@ pub(super) fn whole(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
 }
 
-/// The number, or none if it is too large for 64 bits.
+/// The number, or none if it is too large for an `f64`.
 fn real(number: &DeFloat<'_>) -> Option<f64> {
     let value: f64 = number.as_str().parse().ok()?;
     (!value.is_infinite() || number.as_str().contains("inf")).then_some(value)

@@ -9,9 +9,9 @@ use crate::read::ReadError;
 use crate::read::error::{first_few, named};
 use crate::read::point_paper::PointPaper;
 
-/// The meaning of each colour of the paper in `colors`, the table called `table`. The inner error
-/// refuses a colour of the paper that is not in the table. A colour of the table that the paper
-/// lacks gives a warning.
+/// The meaning of each colour of the paper by `colors`, the table called `table`. The outer error
+/// is a fault of the table. The inner error is a fault of the image: a colour that the table lacks.
+/// A colour of the table that the paper lacks gives a warning.
 pub(super) fn of_paper<'a>(
     source: &Source<'_>,
     paper: &PointPaper,

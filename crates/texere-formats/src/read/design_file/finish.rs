@@ -14,10 +14,10 @@ use crate::read::ReadError;
 /// The least and the greatest factor for a yarn's length.
 const LENGTHS: (f64, f64) = (0.5, 2.0);
 
-/// The greatest tension that draws yarns in, as a share of their length a pass.
+/// The greatest tension that draws yarns in, as a share of their length in each pass of settling.
 const TENSION_MOST: f64 = 0.1;
 
-/// The least and the greatest distance of two plates, mm.
+/// The least and the greatest distance of the two plates that press a knit, mm.
 const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {

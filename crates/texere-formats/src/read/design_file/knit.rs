@@ -26,7 +26,8 @@ pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
 /// The shortest and the longest loop, mm.
 pub(super) const LOOP_MM: (f64, f64) = (0.01, 1000.0);
 
-/// The most needles that a design may let a float pass.
+/// The greatest value of `float_max`, the number of needles that a yarn may float past without a
+/// warning.
 const FLOAT_MAX: i64 = 1_000_000;
 
 /// Reads the knit that `table` describes.

@@ -7,13 +7,13 @@ use toml::Spanned;
 use super::source::Source;
 use crate::read::ReadError;
 
-/// The least and the greatest share of its diameter that a yarn may keep between others.
+/// The least and the greatest share of its diameter that a yarn may keep between other yarns.
 const COMPRESSION: (f64, f64) = (0.8, 1.0);
 
 /// The most copies of a repeat in either direction.
 const COPIES_MAX: i64 = 1_000_000;
 
-/// The share of its diameter that a yarn keeps between others.
+/// The share of its diameter that a yarn keeps between other yarns.
 pub(super) fn compression(
     source: &Source<'_>,
     field: &str,
@@ -22,7 +22,7 @@ pub(super) fn compression(
     share.map_or(Ok(1.0), |share| source.number(field, share, COMPRESSION.0, COMPRESSION.1))
 }
 
-/// Number of copies of a repeat across the wales and along the courses.
+/// The numbers of copies of a repeat across the wales and along the courses.
 pub(super) fn copies(
     source: &Source<'_>,
     field: &str,

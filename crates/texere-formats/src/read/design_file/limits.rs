@@ -2,8 +2,8 @@
 
 use texere_core::HAIRINESS_LIMIT;
 
-/// The largest design file that is read, bytes. A file that names each of a million threads has
-/// this size.
+/// The largest design file that is read, bytes. A file that names each of a million threads is
+/// about as large.
 pub(crate) const FILE: u64 = 1 << 24;
 
 /// The least and the greatest diameter, and the narrowest and the widest spacing, mm.
@@ -15,12 +15,13 @@ pub(crate) const TEX: [f64; 2] = [1e-3, 1e7];
 /// The hardest twist in either direction, turns per metre.
 pub(crate) const TWIST_PER_M: f64 = 1e5;
 
-/// The least and the greatest hairiness, Uster's H.
+/// The least and the greatest hairiness, Uster's H: the length of the fibres that stand off a yarn,
+/// in cm for a cm of yarn.
 pub(crate) const HAIRINESS: [f64; 2] = [0.0, HAIRINESS_LIMIT as f64];
 
-/// Uster's H of a yarn of this twist that has no `hairiness`. A yarn without twist is filament, and
-/// has 0. Other yarns are spun staple, and have 5: the middle of the Uster Statistics for combed
-/// ring-spun cotton of 20 tex.
+/// Uster's H of a yarn of this twist that has no `hairiness`. A yarn without twist is treated as
+/// filament, and has 0. A yarn with twist is treated as spun staple, and has 5: the middle of the
+/// Uster Statistics for combed ring-spun cotton of 20 tex.
 pub(crate) const fn hairiness_of(twist: f32) -> f32 {
     if twist == 0.0 { 0.0 } else { 5.0 }
 }

@@ -41,16 +41,16 @@
 //! | `drawdown` | a row for each pick, the last one on top: `1` where the warp is up, `0` where it is not; repeated over `ends` and `picks` |
 //! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
 //! | `wif` | a draft, in a WIF file beside the design |
-//! | `ends`, `picks` | the size of a cloth: needed with a notation; with a drawdown its own size if left out; with an image left out, or the image's size times `repeat` |
+//! | `ends`, `picks` | the size of the cloth. A notation needs them. With a drawdown they are the drawdown's own size if left out. With an image they are left out, or are the image's size times `repeat`. With `wif` they are refused |
 //! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` if not given |
 //! | `[weave.colors]` | what each colour of the image is woven in: `"#203040" = "satin 8(3)"` |
 //!
-//! Each weave of an image counts from the cloth's first end and first pick. Areas of one weave
-//! therefore join up, within an image and from one repeat of it to the next. Each colour of the
-//! image has to be in `[weave.colors]`. Without that table the image has two colours, and the
-//! darker one is warp up. Pixels are opaque or wholly transparent; transparent pixels are one
-//! colour, lighter than any other. The colour space of an image is not read.
+//! The weaves of an image are counted from the cloth's first end and first pick, not from the edges
+//! of their areas. Areas of one weave therefore join up, also from one repeat of the image to the
+//! next. Each colour of the image has to be in `[weave.colors]`. Without that table the image has
+//! two colours, and the darker one is warp up. Pixels are opaque or wholly transparent; transparent
+//! pixels are one colour, lighter than any other. The colour space of an image is not read.
 //!
 //! The picks of a Jacquard cloth take the yarns of `[weft]` in turn: `["2 red", "white"]` are two
 //! red picks and one white pick.
@@ -59,7 +59,7 @@
 //!
 //! | key | value |
 //! |---|---|
-//! | `shape` | `"round"` ([`Shape::Round`], if not given) or `"crossing"` ([`Shape::Crossing`]: the paper's count) |
+//! | `shape` | `"round"` ([`Shape::Round`], if not given) or `"crossing"` ([`Shape::Crossing`]) |
 //! | `warp_crimp` | the warp's share of the crimp, 0 to 1 ([`Crimp::WarpShare`]); by stiffness if not given |
 //! | `selvedge` | `true`: the weft turns back round the edge ends, one yarn; `false` if not given |
 //! | `jam` | what is done where threads are jammed: `"report"`, if not given, `"flatten"` or `"shrink"` ([`Relief`]) |
@@ -76,7 +76,7 @@
 //! | `repeat` | `[20, 16]`: copies across the wales and along the courses |
 //! | `wales_per_cm` or `needles_per_inch`, `courses_per_cm`, `loop_length_mm` | how close stitches lie ([`Gauge`]) |
 //! | `[knit.stitch_lengths_mm]` | yarn in a loop for each stitch size of a knitout file |
-//! | `compression` | how much of its diameter a yarn keeps, 0.8 to 1 |
+//! | `compression` | the share of its diameter that a yarn keeps between other yarns, 0.8 to 1 |
 //! | `cells` | `"round"` or `"even"` ([`Cells`]) |
 //! | `float_max` | how many needles a yarn may float past before it is warned of |
 //!
@@ -84,7 +84,7 @@
 //!
 //! | key | value |
 //! |---|---|
-//! | `wales`, `courses`, `repeat` | the size of a piece, multiples of what all bars repeat in, and the number of copies: `[4, 2]` |
+//! | `wales`, `courses`, `repeat` | wales and courses of a piece, each a multiple of the number after which all bars repeat; and how many copies of the piece lie across the wales and along the courses: `[4, 2]` |
 //! | `wales_per_cm`, or `needles_per_inch` with `draw_in`; `courses_per_cm` | how close loops lie when finished |
 //! | `compression`, `cells` | as in `[knit]` |
 //! | `[[warp_knit.bars]]` | a guide bar, the front one first |
@@ -93,11 +93,11 @@
 //!
 //! | key | value |
 //! |---|---|
-//! | `lapping`, `step` | chain notation ([`Chain`]) or a name ([`LAPPINGS`]); 2 where only every second number is a space |
+//! | `lapping`, `step` | `lapping` is chain notation ([`Chain`]) or a name ([`LAPPINGS`]); `step` is 2 where only every second number of the chain is a needle space |
 //! | `threading` | yarns of guides in turn, `out` for an empty one: `["2 white", "out"]` |
 //! | `offset` | needles by which the bar stands further to the right |
 //! | `run_in_mm` | the yarn that a guide takes for a rack of 480 courses, mm |
-//! | `image`, `rows`, `colors` | a Jacquard bar: a pixel is a guide at one round of the chain, its colour says what is displaced: `"0-0/1-1"` |
+//! | `image`, `rows`, `colors` | of a Jacquard bar: a pixel of the image is a guide at one round of the chain, and its colour says by how many needles the laps are displaced: `"0-0/1-1"` |
 //!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]).
 //! `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
@@ -112,7 +112,7 @@
 //! | `calender` | how strongly the cloth is pressed flat, 1 for relaxed cloth, 0 to 10 |
 //! | `stretch_warp` or `stretch_weft` | how many times as long the cloth becomes that way, its threads keeping their length ([`Stretch`](texere_fabric::Stretch)) |
 //!
-//! With `wif`, `[warp]` and `[weft]` are optional and stand in for the file's own threads.
+//! With `wif`, `[warp]` and `[weft]` are optional. If given, they replace the threads of the draft.
 
 mod any;
 mod cloth;

@@ -101,8 +101,8 @@ tables! {
         colors: Option<Spanned<BTreeMap<Spanned<String>, Spanned<String>>>>,
     }
 
-    /// How threads lie in woven cloth. Values are of any kind, so that a value of the wrong kind is
-    /// refused with its key.
+    /// How threads lie in woven cloth. Values of any kind are read, so that the refusal of a value
+    /// of the wrong kind says what its key expects.
     ClothTable {
         shape: Option<Spanned<Any>>,
         warp_crimp: Option<Spanned<Any>>,
@@ -110,8 +110,8 @@ tables! {
         jam: Option<Spanned<Any>>,
     }
 
-    /// How yarns come to rest. Values are of any kind, so that a value of the wrong kind is refused
-    /// with its key.
+    /// How yarns come to rest. Values of any kind are read, so that the refusal of a value of the
+    /// wrong kind says what its key expects.
     FinishTable {
         settle: Option<Spanned<Any>>,
         press: Option<Spanned<Any>>,

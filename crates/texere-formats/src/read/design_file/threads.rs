@@ -20,14 +20,16 @@ const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 /// The least and the greatest density of a yarn, the air in it included, g/cm³.
 const DENSITY: [f64; 2] = [0.05, 20.0];
 
-/// The least and the greatest stiffness of a yarn, in units of cotton's.
+/// The least and the greatest stiffness of a yarn, as a multiple of that of a cotton yarn of its
+/// diameter.
 const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
-/// The least flatness, of yarn that stands on edge, and the greatest, of a ribbon. The limits are
-/// `f64`, so that 0.1 is within them: as an `f32` it is a little more than 0.1.
+/// The least and the greatest flatness, width over height: that of yarn that stands on edge, and
+/// that of a ribbon. The limits are `f64`, because 0.1 as an `f32` is a little more than 0.1, and
+/// such a limit would refuse a flatness of 0.1.
 const FLATNESS: [f64; 2] = [0.1, 10.0];
 
-/// The most yarns in turn of a knit.
+/// The most yarns in the list `knit.yarns`, where `"3 red"` counts as three.
 const TURN_MAX: usize = 100_000;
 
 /// A yarn with its name.
@@ -261,8 +263,8 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
     }
     let place = || source.place(&format!("yarns.{name}.section"), shape.span());
     shape.as_ref().validate().map_err(|error| ReadError::Section { place: place(), source: error })?;
-    // Corners of a polygon are the only outline points that a design gives itself. No surface can
-    // be made from a corner that faces nowhere.
+    // The corners of a polygon are the only points of an outline that a design gives itself. A
+    // corner without a normal can't be part of a surface.
     let faces = |corner: &SectionPoint| corner.normal_x.is_finite() && corner.normal_y.is_finite();
     if let Section::Polygon(corners) = shape.as_ref()
         && let Some(corner) =

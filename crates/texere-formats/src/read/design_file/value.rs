@@ -102,9 +102,9 @@ impl<'a> Node<'a> {
 
 /// The known key that is nearest in spelling to an unknown one, if any is near.
 fn nearest(key: &str, known: &[&str]) -> Option<String> {
-    // A key is a misspelling if it differs from a known key in few letters: a third of the known
-    // key's letters, and one more. A key much longer than a known one is not compared letter by
-    // letter, which would take long.
+    // A key is a misspelling if it differs from a known key in few letters: at most a third of the
+    // known key's letters, and one more. A key much longer than a known one is not compared letter
+    // by letter, which would take long.
     let most = |known: &str| known.len().max(3) / 3 + 1;
     let nearest = known
         .iter()

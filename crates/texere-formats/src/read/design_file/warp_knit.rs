@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
         Ok(Threading::of(guides))
     }
 
-    /// The number of a yarn in `threads`, to which a new yarn is added.
+    /// The number of a yarn in `threads`. A yarn that is not in the list yet is added.
     fn number(&mut self, name: &'a str, thread: Thread) -> u32 {
         let known = self.threads.iter().position(|(other, _)| *other == name);
         if known.is_none() {

@@ -167,8 +167,9 @@ impl Notated<'_> {
     }
 }
 
-/// The weave of each colour of the paper. The inner error refuses a colour without a weave. A
-/// colour of the table that the paper lacks gives a warning.
+/// The weave of each colour of the paper. The outer error is a fault of the table. The inner error
+/// is a fault of the image: a colour without a weave. A colour of the table that the paper lacks
+/// gives a warning.
 fn of_colors(
     source: &Source<'_>,
     paper: &PointPaper,

@@ -13,8 +13,8 @@ pub(crate) struct Image {
 
 /// The turn of an image before it is shown, as TIFF and Exif number it: 1 no turn, 2 mirrored left
 /// to right, 3 half a turn, 4 mirrored top to bottom, 5 mirrored at the falling diagonal, 6 a
-/// quarter turn clockwise, 7 mirrored at the rising diagonal, 8 a quarter turn back. Other numbers
-/// turn nothing.
+/// quarter turn clockwise, 7 mirrored at the rising diagonal, 8 a quarter turn counter-clockwise.
+/// Other numbers turn nothing.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992, page 36.
 #[derive(Debug, Clone, Copy)]

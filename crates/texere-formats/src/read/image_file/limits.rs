@@ -9,7 +9,7 @@ use crate::read::ReadError;
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
 const PIXELS_MAX: u64 = 1 << 28;
 
-/// The most memory for an image's pixels, bytes: four for each.
+/// The most memory for an image's pixels, bytes: four for each of [`PIXELS_MAX`] pixels.
 pub(super) const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
 
 /// The most memory for what a decoder needs beside the pixels, bytes: a line or a tile of pixels,
@@ -17,7 +17,8 @@ pub(super) const MEMORY_MAX: u64 = 4 * PIXELS_MAX;
 /// needed because a profile is compressed: one of a gigabyte fits a small file.
 pub(super) const ASIDE_MAX: u64 = 1 << 25;
 
-/// The largest image file that is read, bytes: one that is not compressed.
+/// The largest image file that is read, bytes. An image of [`PIXELS_MAX`] pixels of four bytes fits
+/// uncompressed.
 pub(super) const FILE_MAX: u64 = MEMORY_MAX + ASIDE_MAX;
 
 /// Refuses an image with more than [`PIXELS_MAX`] pixels, or with a side of more pixels than a warp

@@ -1,4 +1,5 @@
-//! Looks in a PNG image for faults that the decoder does not check for, or shows black.
+//! Looks in a PNG image for faults that the decoder overlooks. One of them is a pixel whose number
+//! the palette has no colour for; the decoder would show it black.
 
 use std::io::{self, SeekFrom};
 use std::path::Path;
@@ -12,12 +13,12 @@ use super::refused::{no_color, undecodable};
 use crate::read::ReadError;
 
 /// The most pixels that a byte of a PNG stands for. DEFLATE makes at most 1,032 bytes of one byte,
-/// and a byte has eight pixels of one bit. By this limit no memory is reserved for pixels that a
+/// and a byte has eight pixels of one bit. With this limit, no memory is reserved for pixels that a
 /// short file can't have.
 const PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-/// Refuses a PNG of `file_bytes` that has a broken palette, fewer bytes than its pixels take, or
-/// pixels beyond its palette.
+/// Refuses a PNG of `file_bytes` bytes that has a broken palette, fewer bytes than its pixels take,
+/// or pixels beyond its palette.
 ///
 /// **Source**: PNG 1.2, 4.1.2. A number that the palette has no colour for is an error.
 pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Result<(), ReadError> {
@@ -60,7 +61,7 @@ pub(super) fn check(path: &Path, file: &mut impl Bytes, file_bytes: u64) -> Resu
 /// colours. None for a valid palette, or for a file without one. The decoder does not check
 /// palettes.
 fn broken_palette(file: &mut impl Bytes) -> io::Result<Option<u32>> {
-    // Behind the signature each chunk has its length, its name, its data and a checksum.
+    // After the signature come chunks. Each has its length, its name, its data and a checksum.
     file.seek(SeekFrom::Start(8))?;
     let mut head = [0; 8];
     loop {

@@ -1,6 +1,6 @@
-//! TIFF images of one channel: grey, or numbers of a palette. The decoder for all images reads few
-//! of these correctly. They are read here, sample by sample, by a TIFF decoder that is given a
-//! header in which all samples are grey.
+//! TIFF images of one colour channel: grey, or numbers of a palette. The `image` crate, which
+//! decodes all other images, reads few of these correctly. A TIFF decoder reads them here, sample
+//! by sample. It is given a header in which all samples are grey.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -39,14 +39,14 @@ pub(super) struct Header {
     order: ByteOrder,
 }
 
-/// Whether a file that begins with `start` is a BigTIFF. The decoder for all images reads BigTIFF
-/// but does not recognise it.
+/// Whether a file that begins with `start` is a BigTIFF. The `image` crate reads BigTIFF but does
+/// not recognise it.
 pub(super) fn is_big(start: &[u8]) -> bool {
     BIG.iter().any(|big| start.starts_with(big))
 }
 
 /// Looks at a TIFF's first page, and refuses a file that can't be read here. `None` for a page that
-/// the decoder for all images reads correctly.
+/// the `image` crate reads correctly.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992.
 pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header>, ReadError> {
@@ -58,8 +58,8 @@ pub(super) fn header(path: &Path, file: &mut impl Bytes) -> Result<Option<Header
         Ok(Page { fill_order: 2, .. }) => {
             refuse("its FillOrder is 2, the bits of each byte turned round; save it with FillOrder 1")
         }
-        // In all planes but the first one, the decoder takes the lowest tiles for whole ones, and
-        // panics.
+        // In every plane but the first, the decoder takes the tiles at the bottom edge for whole
+        // ones, and panics.
         Ok(Page { in_planes_of_tiles: true, .. }) => refuse(
             "its samples lie in planes of tiles (PlanarConfiguration 2); save it with PlanarConfiguration 1",
         ),
@@ -263,8 +263,8 @@ impl Samples {
     }
 }
 
-/// A TIFF whose samples seem to be grey, with 0 as black, whatever they are. The decoder then gives
-/// samples as the file has them.
+/// A TIFF file whose header says that its samples are grey, with 0 as black, whatever they really
+/// are. The decoder then gives samples as the file has them.
 struct Grey<F> {
     file: F,
     /// The place of the next byte in the file.

@@ -113,8 +113,8 @@ impl<'a> Words<'a> {
         })
     }
 
-    /// Skips a direction and a needle, which older writers put before the carriers of `in` and
-    /// `out`. Returns whether they were there.
+    /// Skips a direction and a needle. Older writers put them before the carriers of operations
+    /// that bring yarns in or out. Returns whether they were there.
     pub(super) fn pass_place(&mut self) -> Result<bool, ReadError> {
         let mut ahead = self.rest.clone();
         let is_direction = |word: &str| {

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-/// How long a loop is, mm, for each stitch size of a file, as [`size`] writes it.
+/// The length of a loop, mm, for each stitch size of a file. Sizes are written as [`size`] writes
+/// them.
 pub(crate) type LoopLengths = BTreeMap<String, f64>;
 
 /// A stitch size in one spelling, however its numbers are written: the number behind

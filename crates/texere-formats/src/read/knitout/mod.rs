@@ -3,13 +3,13 @@
 //!
 //! The reader is strict about what is knitted and lenient about how a file is written. It refuses,
 //! with line and column, an unknown operation, a word that does not belong there, and a carrier
-//! that the header does not list. It warns, once for each kind, of a first line that is not
-//! `;!knitout-2`, of a missing list of carriers (the carriers are then those that occur), of
-//! unknown headers and extensions, of stitch sizes without a length, of carriage returns, and of
-//! text that is not UTF-8.
+//! that the header does not list. It accepts departures from the standard whose meaning is clear,
+//! and warns of each kind once. Examples are a first line that is not `;!knitout-2`, a missing list
+//! of carriers (the carriers are then those that occur), unknown headers and extensions, stitch
+//! sizes without a length, carriage returns, and text that is not UTF-8.
 //!
 //! With an empty carrier set, `knit` is `drop`, `split` is `xfer`, and `tuck` and `miss` do
-//! nothing. `pause` does nothing.
+//! nothing. `amiss` and `pause` do nothing.
 
 mod carriers;
 mod design;

@@ -132,7 +132,8 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// Reads the carriers of an operation that brings yarns in or out.
+    /// Reads the carriers of an operation that brings yarns in or out, or releases them from a
+    /// hook.
     fn yarns(
         &mut self,
         line: &Line<'a>,

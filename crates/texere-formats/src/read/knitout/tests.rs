@@ -224,8 +224,8 @@ fn what_is_not_standard_is_warned_of_once() {
     assert!(many.len() == 21 && many[20].contains("more warnings are left out"), "{many:?}");
 }
 
-/// An error of a cloth names a carrier or a size. It gets the line of that carrier or size in the
-/// file.
+/// An error of a cloth names a carrier or a size. The error gets the line of the file that has this
+/// carrier or size.
 #[test]
 fn errors_of_the_cloth_have_their_lines() {
     let text = ";!knitout-2\n;;Machine: SWG\n;;Carriers: 1 2 3\n;;Gauge: 7\nin 3\nknit + f1 3\nin 2\ntuck - f1 2\nsplit + f1 b1 2 3\nout 2\nrack 1\n";

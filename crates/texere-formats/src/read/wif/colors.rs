@@ -25,7 +25,7 @@ impl Palette {
         let mut table = BTreeMap::new();
         let mut lines: Vec<_> =
             ini.entries("color table").filter(|(_, entry)| !entry.value.is_empty()).collect();
-        // Lines are checked in their order, so that the first of several faults is the error.
+        // Lines are checked in the file's order, so that the error is the first of several faults.
         lines.sort_unstable_by_key(|(_, entry)| entry.line);
         for (key, entry) in lines {
             let expected = "red, green and blue, numbered from 1";
@@ -66,8 +66,8 @@ impl Palette {
         entry: &Entry<'_>,
     ) -> Result<Option<u32>, ReadError> {
         let Some(first) = list(ini, section, key, entry).next().transpose()? else { return Ok(None) };
-        // Colour 0 is refused below. It does not stand for no colour, as shaft 0 stands for no
-        // shaft.
+        // Colour 0 is refused below. Shaft 0 stands for no shaft, but colour 0 does not stand for
+        // no colour.
         let number = u32::try_from(first).unwrap_or(0);
         if let Some(&material) = self.by_number.get(&number) {
             return Ok(Some(material));

@@ -28,8 +28,8 @@ pub(super) struct Ini<'a> {
     sections: HashMap<Cow<'a, str>, Section<'a>>,
 }
 
-/// The sections that are kept: those that describe the cloth, and the one that names the program.
-/// Other sections may have any size, because nothing of them is kept.
+/// The sections that are kept: those that describe the cloth, and those with its title and with the
+/// program that wrote the file. Other sections may have any size, because nothing of them is kept.
 const READ: [&str; 17] = [
     "wif",
     TEXT,
@@ -121,9 +121,9 @@ impl<'a> Ini<'a> {
     }
 }
 
-/// A key in the spelling by which it is looked up. A number loses its sign and leading zeros, so
-/// that 01 and 1 are one key. Any other key is in lower case. Most keys are plain numbers, which
-/// are not copied.
+/// A key in the spelling by which it is looked up. A number loses its plus sign and its leading
+/// zeros, so that 01 and 1 are one key. Any other key is in lower case. Most keys are plain
+/// numbers, which are not copied.
 fn plain_key(key: &str) -> Cow<'_, str> {
     match key.parse::<u32>() {
         Ok(number) if key.starts_with(['0', '+']) => Cow::Owned(number.to_string()),

@@ -1,10 +1,11 @@
 //! WIF 1.1, the Weaving Information File. The reader is lenient about how a file is written, and
 //! strict about what it says.
 //!
-//! Sections and keys come in any order and case. Sparse lists take defaults. A value of 0, or none,
-//! stands for no shaft or no treadle. CONTENTS is not read. A treadle or shaft that the loom does
-//! not have, a colour that is not in the table, and a missing tie-up, treadling or lift plan are
-//! refused with section and key.
+//! Sections and keys come in any order and case. A thread that a list of colours, spacings or
+//! thicknesses leaves out has the value of its whole set. In THREADING, TIEUP, TREADLING and
+//! LIFTPLAN a value of 0, or none, stands for no shaft or no treadle. CONTENTS is not read. A
+//! treadle or shaft that the loom does not have, a colour that is not in the table, and a missing
+//! tie-up, treadling or lift plan are refused with section and key.
 //!
 //! A loom has the shafts and treadles that WEAVING declares. If ends are threaded on more shafts,
 //! or the tie-up has rows for more treadles, the loom has these as well, and a warning says so. A

@@ -18,21 +18,23 @@ const DEFAULT_SPACING_MM: f64 = 1.0;
 pub(crate) const UNITS_MM: [(&str, f64); 3] =
     [("Centimeters", 10.0), ("Inches", 25.4), ("Decipoints", 25.4 / 720.0)];
 
-/// The room that equal threads, evenly spaced, get to cross if the file does not state their
-/// thickness, in least pitches (Peirce's). It is 2/√3, which a diameter of half the spacing leaves.
-/// The test is `what_is_given_room_does_not_pierce`.
+/// The least distance of neighbouring threads in units of Peirce's least pitch, if the file does
+/// not state how thick threads are and all are equal and evenly spaced. It is 2/√3, which is what
+/// threads have whose diameter is half their spacing. The test `what_is_given_room_does_not_pierce`
+/// shows that threads so far apart are clear of one another.
 const ROOM: f64 = 1.154_700_538_379_251_5;
 
-/// The room that uneven threads get. It keeps threads clear beside gaps of up to twelve times their
-/// pitch, and beside threads of a twelfth of their diameter. The test is
-/// `what_is_given_room_does_not_pierce`.
+/// The least distance of neighbouring threads in the same units, if threads are uneven in spacing
+/// or thickness. It keeps threads clear beside gaps of up to twelve times their pitch, and beside
+/// threads of a twelfth of their diameter, as `what_is_given_room_does_not_pierce` tests.
 const ROOM_UNEVEN: f64 = 1.85;
 
-/// The share by which room may fall short without effect. Radii are rounded to `f32`.
+/// The share by which threads may lie closer than [`ROOM`] or [`ROOM_UNEVEN`] asks without becoming
+/// thinner, because radii are rounded to `f32`.
 const ROUNDING: f64 = 1e-6;
 
-/// The share by which a thickness may differ from a spacing and still count as equal. Programs
-/// round both.
+/// The share by which two spacings, two thicknesses, or a thickness and a spacing may differ and
+/// still count as equal. Programs round them.
 const ALIKE: f64 = 0.01;
 
 /// The warp's threads, or the weft's, as far as the file describes them.
@@ -81,8 +83,8 @@ pub(super) fn read(
 /// pass between them. A `Thickness` that equals the set's `Spacing`, or threads that together are
 /// as wide as the set, therefore give only the ratios of thicknesses. The mean thickness is then
 /// that of a file without thickness: half the mean spacing of the set that lies closer. Equal
-/// threads, evenly spaced, then have 2/√3 of the least pitch (Peirce's, [`texere_fabric::Pitch`]).
-/// Uneven threads may have less.
+/// threads, evenly spaced, are then 2/√3 times Peirce's least pitch apart
+/// ([`texere_fabric::Pitch`]). Uneven threads may be closer.
 pub(super) fn roomy(
     drawdown: Drawdown,
     [warp, weft]: [Vec<Thread>; 2],
@@ -167,8 +169,8 @@ impl Set {
         Ok(Self { common: [spacing, thickness], spacing_mm, thickness_mm, material })
     }
 
-    /// Whether threads are as thick as they are spaced by the values for the whole set, or at least
-    /// as thick in sum.
+    /// Whether the thickness for the whole set equals the spacing for the whole set, or all threads
+    /// together are at least as thick as they are spaced.
     fn is_drawn(&self) -> bool {
         let alike = |[spacing, thickness]: [Option<f64>; 2]| {
             spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)

@@ -129,9 +129,9 @@ fn draft(
 }
 
 /// Refuses a draft that counts shafts from 0. A draft that does so has ends on shaft 0 and on every
-/// further shaft but the last, and its lifts name shaft 0 and never the last. If ends and lifts
-/// name shaft 0, but the rest does not hold, there is a warning. Drafts that texere has written
-/// count from 1.
+/// further shaft except the last that `[WEAVING]` declares, and its lifts name shaft 0 and never
+/// this last shaft. If ends and lifts name shaft 0, but the other signs are missing, there is a
+/// warning. Drafts that texere has written count from 1.
 fn counted_from_1(
     ini: &Ini<'_>,
     threading: &[Vec<u32>],

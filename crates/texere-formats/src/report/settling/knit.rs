@@ -41,7 +41,7 @@ pub(crate) struct KnitRestReport {
     passage: Option<PassageReport>,
 }
 
-/// A press: the plates' distance, and how thick the cloth is.
+/// A press: the distance of its plates, and the thickness of the cloth.
 #[derive(Debug, Serialize)]
 struct PressReport {
     asked_mm: f64,

@@ -37,7 +37,7 @@ pub(crate) struct WovenRestReport {
 struct AreaReport {
     mean: f64,
     least: f64,
-    /// The mean share that was lost to clearance.
+    /// The mean share that threads lost when they were made thinner for clearance.
     lost: f64,
 }
 

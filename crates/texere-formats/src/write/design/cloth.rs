@@ -1,5 +1,5 @@
-//! Settings of a woven design that differ from the defaults, and the parts that a WIF draft leaves
-//! out.
+//! The settings of a woven design that differ from the defaults, and the parts of the design that a
+//! WIF draft leaves out.
 
 use texere_core::Section;
 use texere_core::crossings::Set;

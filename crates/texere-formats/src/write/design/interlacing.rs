@@ -1,4 +1,5 @@
-//! The kinds of ends and picks of a drawdown, and its repeat.
+//! The kinds of ends and picks of a drawdown, and its repeat. Ends of one kind are up at the same
+//! picks. Picks of one kind have the same ends up.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -7,7 +8,8 @@ use texere_fabric::{Draft, Drawdown, Shedding};
 
 use super::super::WriteError;
 
-/// The most shafts and treadles of a draft with a tie-up. With more, a lift plan is shorter.
+/// The most shafts and treadles of a draft with a tie-up. A draft that needs more of either has a
+/// lift plan.
 const TIED_MAX: usize = 100;
 
 /// Threads by kind. Threads of one kind have equal keys.

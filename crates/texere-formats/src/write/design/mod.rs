@@ -26,12 +26,12 @@ use wif::WifFile;
 /// Writes a woven design as a WIF 1.1 draft. Returns the parts that the file leaves out, each by
 /// its key in a design file.
 ///
-/// The draft is the design's own, if it weaves the cloth. Any other design gets one shaft for each
+/// The draft is the design's own, if it weaves the cloth. If not, the draft has one shaft for each
 /// kind of end, and a tie-up if at most a hundred shafts and a hundred treadles are needed, else a
-/// lift plan. Spacing and thickness of warp and of weft are written in the unit that holds most of
-/// them to the bit, and among such units in the one with the fewest digits. A length that no unit
-/// holds is read again with a difference in the sixteenth digit. Colours are read again exactly.
-/// Jammed threads that were relieved are written as relieved.
+/// lift plan. The spacings and thicknesses of each set are written in the unit that holds most of
+/// them to the bit. Among such units the one with the fewest digits is taken. A length that the
+/// unit does not hold to the bit is read again with a difference in the sixteenth digit. Colours
+/// are read again exactly. Jammed threads that were relieved are written as relieved.
 ///
 /// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.wif`, [`WriteError::Unheld`]
 /// for a knit, [`WriteError::OutOfRange`] for lengths, shafts and treadles beyond the limits of the

@@ -53,7 +53,8 @@ pub(super) fn shortest(value: f64, digits: usize, reads: impl Fn(f64) -> bool) -
         let rounded: f64 = format!("{value:.behind$e}").parse().ok()?;
         reads(rounded).then_some(rounded)
     });
-    // A quotient may be off by one bit from the number whose product is exact.
+    // If `value` is a quotient, it may be off by one bit from the number that the reader has to
+    // multiply to get the exact value.
     near.or_else(|| {
         let beside = [value.next_down(), value.next_up()];
         beside.into_iter().find(|near| digits >= DIGITS && reads(*near))

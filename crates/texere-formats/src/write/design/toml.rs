@@ -37,7 +37,8 @@ impl<'a> TomlFile<'a> {
             left_out.push("the draft: threading, tie-up and treadling, or lift plan, which WIF holds".into());
         }
         let relief = woven.relief();
-        // Cloth that comes to rest needs no relief, and a design file refuses it.
+        // Cloth that comes to rest needs no relief, and in its design file the key of the relief is
+        // refused.
         let cloth = if design.settle && relief != Relief::Report {
             left_out.push("cloth.jam: threads that come to rest are written as they were relieved".into());
             woven.cloth()

@@ -97,8 +97,8 @@ fn named(name: &str) -> Option<u32> {
 
 /// A property of the threads of a set: colour, spacing or thickness.
 struct Column {
-    /// The key in the set's own section, and the last word in the name of the section of single
-    /// threads.
+    /// The key in the set's own section, such as `Spacing` in `[WARP]`, and the last word in the
+    /// name of the section of single threads, such as `SPACING` in `[WARP SPACING]`.
     keys: [&'static str; 2],
     kinds: Kinds,
     /// The value of each kind. It is empty for threads that have none.

@@ -1,11 +1,11 @@
-//! The woven design that a writer writes.
+//! The woven part of a design, for the writers of woven designs.
 
 use texere_fabric::{Structure, WovenDesign};
 
 use crate::Design;
 use crate::write::WriteError;
 
-/// The woven design in a design, for a writer of `format`.
+/// The woven design that a writer of `format` writes.
 ///
 /// **Errors**: [`WriteError::Unheld`] for a knit.
 pub(super) fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a WovenDesign, WriteError> {

@@ -46,7 +46,8 @@ impl Canvas {
         }
     }
 
-    /// Colours the pixels within `reach` of a point for whose distance `inside` holds.
+    /// Colours the pixels for whose distance from a point `inside` holds. Only pixels within
+    /// `reach` of the point are looked at.
     fn near(&mut self, [x, y]: [f64; 2], reach: f64, color: Rgb, inside: impl Fn(f64) -> bool) {
         let range = |at: f64, side: usize| {
             let end = (at + reach + 1.0).clamp(0.0, side as f64) as usize;

@@ -7,8 +7,9 @@
 //! ```
 //!
 //! Each of the first eight bars has a diagram with one of its guides. The diagram of a Jacquard bar
-//! has all of its guides. The diagram on the right has all guides of all bars. A guide passes
-//! behind the needles between two dots, goes round a dot above it, and moves on to the next course.
+//! has all of its guides. The diagram on the right has all guides of all bars. The yarn of a guide
+//! rises beside a dot, goes round it from above, comes down on the other side, and moves on to the
+//! next course. An inlaid yarn passes between the dots.
 
 use std::io::Write;
 
@@ -45,10 +46,10 @@ const DIAGRAMS_MAX: usize = 9;
 /// Number of straight pieces of half a turn round a needle.
 const PARTS: u32 = 12;
 
-/// Draws a warp knit's lapping diagram to a PNG file: its first wales and courses, at most 12 by
-/// 48, and below it the chain of each bar. Needles are counted from the left if the diagram shows
-/// the face, and from the right if it shows the back. Returns the picture's width and height in
-/// pixels.
+/// Draws a warp knit's lapping diagram to a PNG file. The diagram has the first wales and courses,
+/// at most 12 by 48, and the chain of each bar stands below it. Needles are counted from the left
+/// if the diagram shows the face, and from the right if it shows the back. Returns the picture's
+/// width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
@@ -151,7 +152,7 @@ impl<'a> Drawing<'a> {
         let place = |at: [f64; 2]| self.place(side, at);
         for (number, guides) in bars {
             let bar = &self.cloth.bars()[*number];
-            // Bars are drawn a little beside one another, so that each shows.
+            // Each bar is drawn a little to the side of the bar before, so that all bars show.
             let beside = *number as f64 * 3.0 / PITCH;
             for guide in guides {
                 let Some(yarn) = bar.threading.yarn(*guide) else { continue };

@@ -4,7 +4,9 @@
 /// dobby.
 pub(super) const SHAFTS_MAX: usize = 100;
 
-/// The length that a picture's longer side comes near to, pixels, as far as its squares allow.
+/// The length of a picture's longer side that its squares are sized for, pixels. A picture of few
+/// squares is smaller, because squares have a largest size, and a picture of very many is larger,
+/// because a square has at least one pixel.
 pub(super) const SIDE_AIM: usize = 2400;
 
 /// The largest square, pixels.

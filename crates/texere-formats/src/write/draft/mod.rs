@@ -11,8 +11,8 @@
 //! in a mill. Shaft 1 is the row next to the cloth, treadle 1 the column next to it. A black square
 //! of the drawdown is warp on top. A cloth without a shaft draft, or with more than 100 shafts or
 //! treadles, is drawn as point paper: drawdown and yarns alone. The back of a cloth is point paper,
-//! too, because a draft is written for the face. It is turned over sideways, so that end 1 is on
-//! the right.
+//! too, because a draft is written for the face. The cloth is then turned over sideways, so that
+//! end 1 is on the right.
 
 mod canvas;
 mod font;

@@ -1,4 +1,5 @@
-//! The JSON document of a GLB file: the layout of its buffer, and the yarn of each part.
+//! The JSON document of a GLB file. It describes the layout of the buffer, and says which yarn each
+//! part of the buffer belongs to.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;

@@ -67,8 +67,8 @@ macro_rules! whole_numbers {
 whole_numbers!(u32, u64, usize);
 
 impl Json for f32 {
-    /// Every float takes fifteen bytes: a sign, nine digits and a point, and an exponent of four
-    /// bytes. JSON allows the spaces before a shorter number.
+    /// Every float takes fifteen bytes, which hold a sign, nine digits, a point, and an exponent of
+    /// four bytes. Spaces fill up a shorter number in front, which JSON allows.
     fn write(&self, text: &mut String) {
         // Writing to a string does not fail.
         let _ = write!(text, "{self:15e}");

@@ -92,7 +92,7 @@ impl Run<'_> {
     /// Puts new loops on a needle, on top of the loops that it holds.
     fn place(&mut self, mut held: Vec<Held>, first: u32, count: usize, slot: Slot) {
         // The needle lies in the repeat of `slot`, but the list of the slot is that of the needle
-        // in repeat 0. The loops on that needle belong to a repeat further back.
+        // in repeat 0. Counted from that needle, the new loops belong to the repeat `-slot.repeat`.
         let new = Held { number: 0, round: self.round, repeat: -slot.repeat, moved: 0, split: None };
         held.extend((first..).take(count).map(|number| Held { number, ..new }));
         *self.beds.stack(slot) = held;

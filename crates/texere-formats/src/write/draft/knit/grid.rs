@@ -79,8 +79,8 @@ pub(super) struct Grid {
     squares: Vec<Square>,
 }
 
-/// A limit to the search for heads that cross. A head is compared only with heads less than twice
-/// this many wales away.
+/// A limit to the search for loop heads that cross, in wales. A head is compared only with heads
+/// less than twice this many wales away.
 const CROSSING_MAX: i64 = 32;
 
 /// Number of wales and courses of a chart, and its leftmost wale.

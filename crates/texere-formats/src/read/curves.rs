@@ -1,0 +1,169 @@
+//! Reads files of curves (BCC): yarns that other programs made.
+
+use std::path::Path;
+
+use texere_core::backend::room;
+use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
+
+use super::ReadError;
+use super::bytes::Bytes;
+use super::file::{bytes_of, open, small};
+use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
+use crate::yarns_file::BYTES_MAX;
+
+/// What a file of curves does not say about its yarns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveScale {
+    /// The length of the file's unit, mm. For coordinates in metres it is 1000.
+    pub unit_mm: f32,
+    /// The diameter of all yarns, mm.
+    pub diameter_mm: f32,
+}
+
+/// Reads a file of curves in the format BCC, Binary Curve Collection. Each curve becomes a round
+/// yarn of the diameter in `scale`, a spline of tension 0 through the curve's points. If the file
+/// says that x or y is up, the curves are turned so that this axis becomes z.
+///
+/// A unit of 1 mm keeps coordinates to the bit.
+///
+/// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, goes on
+/// behind its last curve, has counts that do not fit one another, or is of another kind;
+/// [`ReadError::Yarns`] for coordinates or a diameter that no yarn may have;
+/// [`ReadError::TooLarge`] beyond 16 GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`],
+/// [`ReadError::Io`].
+///
+/// ```
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_formats::read::{self, CurveScale};
+/// use texere_formats::write;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("yarn.bcc");
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let yarns = yarns.build()?;
+/// write::curves(&yarns, &path)?;
+/// let again = read::curves(&path, CurveScale { unit_mm: 1.0, diameter_mm: 0.2 })?;
+/// assert_eq!(again.points(), yarns.points());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadError> {
+    let path = path.as_ref();
+    curves_from(path, &bytes_of(&open, path, BYTES_MAX)?, scale)
+}
+
+/// Reads the bytes of a file of curves that a program has in memory. Errors call the file `name`.
+///
+/// **Errors**: the errors of [`curves`].
+///
+/// ```
+/// use texere_formats::read::{self, CurveScale};
+/// let error = read::curves_from("hat", b"BCC", CurveScale { unit_mm: 1.0, diameter_mm: 0.2 }).unwrap_err();
+/// assert!(error.to_string().starts_with("hat, byte 0: "));
+/// ```
+pub fn curves_from(name: impl AsRef<Path>, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
+    let file = name.as_ref();
+    small(file, bytes.len() as u64, BYTES_MAX)?;
+    let mut bytes = Bytes::new(file, bytes);
+    let Header { curves, points: planned, up } = header(&mut bytes)?;
+    let mut yarns: Vec<Yarn> = room("yarns", curves)?;
+    let mut offsets: Vec<u64> = room("offsets", curves + 1)?;
+    let mut points: Vec<ControlPoint> = room("control points", planned)?;
+    offsets.push(0);
+    for _ in 0..curves {
+        let (count, closed) = count(&mut bytes, planned - points.len())?;
+        yarns.push(Yarn { closed, ..Yarn::default() });
+        for _ in 0..count {
+            points.push(point(&mut bytes, up, scale)?);
+        }
+        offsets.push(points.len() as u64);
+    }
+    if points.len() < planned {
+        let expected = format_args!("{planned}, as the header says");
+        return Err(bytes.refused(
+            bytes.at(),
+            "the number of control points of all curves",
+            points.len(),
+            expected,
+        ));
+    }
+    bytes.end()?;
+    let unsound = |source| ReadError::Yarns { file: file.into(), source };
+    let layout = Layout::new(yarns, offsets, vec![Section::Circle]).map_err(unsound)?;
+    Yarns::new(layout, vec![Material::default()], points).map_err(unsound)
+}
+
+/// What the header says.
+struct Header {
+    curves: usize,
+    /// Control points of all curves together.
+    points: usize,
+    /// The axis that points up: 0 for x, 1 for y, 2 for z.
+    up: u8,
+}
+
+fn header(bytes: &mut Bytes<'_>) -> Result<Header, ReadError> {
+    let sign: [u8; 4] = bytes.take("the sign")?;
+    if sign != SIGN {
+        let expected = format_args!("{}, curves with integers and floats of 4 bytes", SIGN.escape_ascii());
+        return Err(bytes.refused(0, "the sign", sign.escape_ascii(), expected));
+    }
+    let spline: [u8; 2] = bytes.take("the kind of curve")?;
+    if ![Spline::CatmullRom, Spline::Polyline].iter().any(|known| known.letters() == spline) {
+        let expected = "C0 for uniform Catmull-Rom curves, or PL for polylines";
+        return Err(bytes.refused(4, "the kind of curve", spline.escape_ascii(), expected));
+    }
+    let [dimensions] = bytes.take("the number of dimensions")?;
+    if dimensions != 3 {
+        return Err(bytes.refused(6, "the number of dimensions", dimensions, 3));
+    }
+    let [up] = bytes.take("the axis that points up")?;
+    if up > Z_UP {
+        return Err(bytes.refused(7, "the axis that points up", up, "0 for x, 1 for y or 2 for z"));
+    }
+    let (curves_at, curves) = (bytes.at(), bytes.long("the number of curves")?);
+    let (points_at, points) = (bytes.at(), bytes.long("the number of control points of all curves")?);
+    let _: [u8; INFO_BYTES] = bytes.take("the text about the file")?;
+    Ok(Header {
+        curves: bytes.room_for(curves_at, "the number of curves", curves, COUNT_BYTES)?,
+        points: bytes.room_for(
+            points_at,
+            "the number of control points of all curves",
+            points,
+            POINT_BYTES,
+        )?,
+        up,
+    })
+}
+
+/// Bytes of the number of a curve's control points.
+const COUNT_BYTES: u64 = 4;
+
+/// Bytes of a control point.
+const POINT_BYTES: u64 = 12;
+
+/// Number of control points of the next curve, `left` at most, and whether the curve is closed.
+fn count(bytes: &mut Bytes<'_>, left: usize) -> Result<(usize, bool), ReadError> {
+    let field = "the number of control points of a curve";
+    let (at, count) = (bytes.at(), i32::from_le_bytes(bytes.take(field)?));
+    let least = if count < 0 { 3 } else { 2 };
+    let points = count.unsigned_abs() as usize;
+    if points < least || points > left {
+        let expected = format_args!(
+            "2 to {left}, or for a closed curve -3 to -{left}, because the header counts so many more"
+        );
+        return Err(bytes.refused(at, field, count, expected));
+    }
+    Ok((points, count < 0))
+}
+
+fn point(bytes: &mut Bytes<'_>, up: u8, scale: CurveScale) -> Result<ControlPoint, ReadError> {
+    let mut axis = || Ok::<_, ReadError>(bytes.float("a coordinate of a control point")? * scale.unit_mm);
+    let [x, y, z] = [axis()?, axis()?, axis()?];
+    // Quarter turns, which mirror no curve.
+    let [x, y, z] = match up {
+        0 => [-z, y, x],
+        1 => [x, -z, y],
+        _ => [x, y, z],
+    };
+    Ok(ControlPoint::new(x, y, z, scale.diameter_mm / 2.0))
+}

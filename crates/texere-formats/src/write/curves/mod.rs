@@ -1,0 +1,116 @@
+//! Writes the centrelines of yarns as curves, for simulators and renderers that make tubes of
+//! curves themselves.
+
+mod bcc;
+mod usd;
+
+use std::io::Write;
+use std::path::Path;
+
+use texere_core::Yarns;
+
+use super::format::by_extension;
+use super::target::Target;
+use super::{Output, WriteError};
+
+/// A kind of file of curves.
+///
+/// ```
+/// use texere_formats::write::CurveFormat;
+/// assert_eq!(CurveFormat::from_path("damask.USDA")?, CurveFormat::Usda);
+/// let error = CurveFormat::from_path("damask.abc").unwrap_err();
+/// assert_eq!(error.to_string(), "damask.abc has no known extension; there are: bcc, usda");
+/// # Ok::<(), texere_formats::WriteError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CurveFormat {
+    /// Binary Curve Collection: control points alone. It has no thickness, no colour and no
+    /// tension.
+    Bcc,
+    /// The text form of Universal Scene Description: curves with diameters and colours.
+    Usda,
+}
+
+impl CurveFormat {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Bcc, Self::Usda];
+
+    /// The extension that stands for the format, without its dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Bcc => "bcc",
+            Self::Usda => "usda",
+        }
+    }
+
+    /// The format that the extension of `path` stands for, in upper or lower case.
+    ///
+    /// **Errors**: [`WriteError::UnknownFormat`], which names all extensions.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
+        by_extension(path.as_ref(), Self::ALL, Self::extension)
+    }
+}
+
+/// Writes the centrelines of yarns as curves, in the format that the extension of `output` stands
+/// for. Coordinates are in mm. Returns the file's length in bytes.
+///
+/// Both formats hold the control points of the spline to the bit. `docs/FORMATS.md` says what else
+/// each of them holds. Sections, up directions, twist and sources are left out.
+///
+/// **Errors**: [`WriteError::UnknownFormat`]; [`WriteError::Unheld`] for BCC of yarns whose tension
+/// is not 0, or of a yarn of more than 2³¹ - 1 control points; [`WriteError::Spared`],
+/// [`WriteError::Io`].
+///
+/// ```
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_formats::write;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("yarn.bcc");
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// // A header of 64 bytes, a count of 4, and 12 bytes a control point.
+/// assert_eq!(write::curves(&yarns.build()?, &path)?, 64 + 4 + 3 * 12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn curves(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError> {
+    let output = output.into();
+    let format = CurveFormat::from_path(output.path())?;
+    check(yarns, format)?;
+    write(yarns, format, Target::create(output)?)?.commit()
+}
+
+/// Writes the centrelines of yarns to `out`: the bytes that [`curves`] writes to a file.
+///
+/// **Errors**: the errors of [`curves`], and [`WriteError::Writer`] if `out` refuses bytes.
+///
+/// ```
+/// use texere_core::{ControlPoint, Yarn, Yarns};
+/// use texere_formats::write::{self, CurveFormat};
+/// let mut yarns = Yarns::builder();
+/// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+/// let mut stage = Vec::new();
+/// write::curves_to(&yarns.build()?, CurveFormat::Usda, &mut stage)?;
+/// assert!(stage.starts_with(b"#usda 1.0\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn curves_to(yarns: &Yarns, format: CurveFormat, out: impl Write) -> Result<u64, WriteError> {
+    check(yarns, format)?;
+    write(yarns, format, Target::straight(out))?.done()
+}
+
+/// Checks that the format can hold the yarns, before a byte is written.
+fn check(yarns: &Yarns, format: CurveFormat) -> Result<(), WriteError> {
+    match format {
+        CurveFormat::Bcc => bcc::check(yarns),
+        CurveFormat::Usda => Ok(()),
+    }
+}
+
+fn write<W: Write>(yarns: &Yarns, format: CurveFormat, target: Target<W>) -> Result<Target<W>, WriteError> {
+    match format {
+        CurveFormat::Bcc => bcc::write(yarns, target),
+        CurveFormat::Usda => usd::write(yarns, target),
+    }
+}

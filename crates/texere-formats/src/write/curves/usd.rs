@@ -1,0 +1,191 @@
+//! The text form of Universal Scene Description: the yarns of each material as one prim of curves.
+//!
+//! A spline of tension 0 is written as Catmull-Rom curves. The wrap is `nonperiodic`. The points
+//! beyond the ends of a curve, which shape its first and its last interval, are written out. With
+//! the wrap `pinned` a renderer would make up these points, and usdview and Blender draw such
+//! curves wrong. A closed yarn is written as a curve that ends where it begins. A spline of any
+//! other tension is written as Bézier curves of the same shape.
+//!
+//! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org.
+
+use std::fmt::Display;
+use std::io::Write;
+
+use texere_core::definitions::{neighbours, tangent_factor};
+use texere_core::{ControlPoint, Material, Yarns};
+
+use super::super::WriteError;
+use super::super::target::Target;
+
+/// Writes a stage with all yarns.
+pub(super) fn write<W: Write>(yarns: &Yarns, target: Target<W>) -> Result<Target<W>, WriteError> {
+    let mut stage = Stage { target };
+    stage.line(format_args!(
+        "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n    doc = \"texere {}: x along the weft or course, \
+         y along the warp or wale, z out of the face\"\n    metersPerUnit = 0.001\n    upAxis = \"Z\"\n)\n\n\
+         def Xform \"cloth\" (\n    kind = \"component\"\n)\n{{",
+        env!("CARGO_PKG_VERSION")
+    ))?;
+    for (number, material) in yarns.materials().iter().enumerate() {
+        let own = Own { yarns, material: number as u32 };
+        if own.curves().next().is_some() {
+            stage.curves(&own, number, material)?;
+        }
+    }
+    stage.line("}")?;
+    Ok(stage.target)
+}
+
+/// The yarns of one material.
+struct Own<'a> {
+    yarns: &'a Yarns,
+    material: u32,
+}
+
+impl<'a> Own<'a> {
+    fn curves(&self) -> impl Iterator<Item = Curve<'a>> {
+        let (yarns, material) = (self.yarns, self.material);
+        let all = yarns.layout().yarns().iter().enumerate();
+        all.filter(move |(_, yarn)| yarn.material == material).map(move |(number, yarn)| Curve {
+            number,
+            points: yarns.yarn_points(number).unwrap_or_default(),
+            closed: yarn.closed,
+            tension: yarns.tension(),
+        })
+    }
+}
+
+/// The spline of one yarn.
+#[derive(Clone, Copy)]
+struct Curve<'a> {
+    number: usize,
+    points: &'a [ControlPoint],
+    closed: bool,
+    tension: f32,
+}
+
+impl<'a> Curve<'a> {
+    fn intervals(self) -> usize {
+        self.points.len() - usize::from(!self.closed)
+    }
+
+    /// Number of the curve's vertices in the file.
+    fn count(self) -> usize {
+        if self.tension == 0.0 { self.intervals() + 3 } else { 3 * self.intervals() + 1 }
+    }
+
+    /// The curve's vertices in the file, mm.
+    fn vertices(self) -> impl Iterator<Item = [f32; 3]> + 'a {
+        let window = move |interval| {
+            neighbours(self.points, self.closed, interval).map(|point| [point.x, point.y, point.z])
+        };
+        let [before, start, end, _] = window(0);
+        let catmull_rom = self.tension == 0.0;
+        let first =
+            if catmull_rom { [Some(before), Some(start), Some(end)] } else { [Some(start), None, None] };
+        let third = tangent_factor::<f32>(self.tension) / 3.0;
+        let others = (0..self.intervals()).map(move |interval| {
+            let [before, start, end, after] = window(interval);
+            if catmull_rom {
+                return [Some(after), None, None];
+            }
+            let leaving = std::array::from_fn(|axis| start[axis] + third * (end[axis] - before[axis]));
+            let arriving = std::array::from_fn(|axis| end[axis] - third * (after[axis] - start[axis]));
+            [Some(leaving), Some(arriving), Some(end)]
+        });
+        std::iter::once(first).chain(others).flatten().flatten()
+    }
+
+    /// The diameter at each control point, mm: that of a circle as large as the ellipse of the
+    /// yarn's width and height. A closed curve has its first diameter again at its end.
+    fn diameters(self) -> impl Iterator<Item = f32> + 'a {
+        let again = self.points.first().filter(|_| self.closed);
+        self.points.iter().chain(again).map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
+    }
+}
+
+/// The corners of the box round all vertices of the curves, widened by their greatest radius, mm.
+fn extent(own: &Own<'_>) -> [[f32; 3]; 2] {
+    let mut extent = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    for vertex in own.curves().flat_map(Curve::vertices) {
+        for axis in 0..3 {
+            extent[0][axis] = extent[0][axis].min(vertex[axis]);
+            extent[1][axis] = extent[1][axis].max(vertex[axis]);
+        }
+    }
+    let radius = own.curves().flat_map(Curve::diameters).fold(0.0, f32::max) / 2.0;
+    [extent[0].map(|low| low - radius), extent[1].map(|high| high + radius)]
+}
+
+/// A point or a colour as the format writes it.
+fn triple([x, y, z]: [f32; 3]) -> String {
+    format!("({x}, {y}, {z})")
+}
+
+/// A text in quotes as the format writes it. Control characters become spaces.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            other if other.is_control() => quoted.push(' '),
+            other => quoted.push(other),
+        }
+    }
+    quoted + "\""
+}
+
+/// A stage that is being written.
+struct Stage<W: Write> {
+    target: Target<W>,
+}
+
+impl<W: Write> Stage<W> {
+    fn text(&mut self, text: impl Display) -> Result<(), WriteError> {
+        write!(self.target, "{text}").map_err(|source| self.target.failed(source))
+    }
+
+    fn line(&mut self, text: impl Display) -> Result<(), WriteError> {
+        self.text(format_args!("{text}\n"))
+    }
+
+    /// Writes the yarns of a material as one prim.
+    fn curves(&mut self, own: &Own<'_>, number: usize, material: &Material) -> Result<(), WriteError> {
+        let basis = if own.yarns.tension() == 0.0 { "catmullRom" } else { "bezier" };
+        let [low, high] = extent(own);
+        self.line(format_args!(
+            "    def BasisCurves \"yarns_{}\" (\n        displayName = {}\n    )\n    {{",
+            number + 1,
+            quoted(&material.name)
+        ))?;
+        self.line(format_args!("        uniform token basis = \"{basis}\""))?;
+        self.list("int[] curveVertexCounts", own.curves().map(Curve::count), "")?;
+        self.line(format_args!("        float3[] extent = [{}, {}]", triple(low), triple(high)))?;
+        self.list("point3f[] points", own.curves().flat_map(Curve::vertices).map(triple), "")?;
+        self.list("bool[] primvars:closed", own.curves().map(|curve| curve.closed), "uniform")?;
+        self.list("color3f[] primvars:displayColor", [triple(material.linear_rgb())].iter(), "")?;
+        self.list("int[] primvars:yarn", own.curves().map(|curve| curve.number), "uniform")?;
+        self.line("        uniform token type = \"cubic\"")?;
+        self.list("float[] widths", own.curves().flat_map(Curve::diameters), "varying")?;
+        self.line("        uniform token wrap = \"nonperiodic\"\n    }")
+    }
+
+    /// Writes a list of values.
+    fn list(
+        &mut self,
+        attribute: &str,
+        values: impl Iterator<Item = impl Display>,
+        interpolation: &str,
+    ) -> Result<(), WriteError> {
+        self.text(format_args!("        {attribute} = ["))?;
+        let mut before = "";
+        for value in values {
+            self.text(format_args!("{before}{value}"))?;
+            before = ", ";
+        }
+        match interpolation {
+            "" => self.line("]"),
+            _ => self.line(format_args!("] (\n            interpolation = \"{interpolation}\"\n        )")),
+        }
+    }
+}

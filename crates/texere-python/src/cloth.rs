@@ -1,0 +1,303 @@
+//! Cloth: its yarns, how they came to rest, and what is made of them.
+
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use texere::Picker;
+use texere::backend::Plan;
+use texere::picture::{Background, Quality};
+use texere::rest::RestReport;
+use texere::write::Output;
+use texere::yarn::YarnPlace;
+
+use crate::check::{Clearance, Diagnosis};
+use crate::edit::Editing;
+use crate::error::Raise;
+use crate::measures::Measures;
+use crate::mesh::{Mesh, settings};
+use crate::pick::Hit;
+use crate::picture::{Asked, Kept, View};
+use crate::yarns::{Shared, Yarns};
+use crate::{device, mesh, peers, pick, picture, watch};
+
+/// The cloth of a design: :meth:`texere.Design.rest` makes it.
+///
+/// >>> texere.read("designs/poplin.toml").rest(device="cpu", progress=False)
+/// <texere.Cloth 'Poplin, its fine ribs across the cloth', at rest>
+#[pyclass(frozen, module = "texere")]
+#[derive(Debug)]
+pub(crate) struct Cloth {
+    pub(crate) cloth: Arc<texere::Cloth>,
+    /// The name of the device on which it came to rest.
+    device: String,
+    /// Made for the first ray.
+    picker: OnceLock<Picker>,
+    /// What the last picture was made of.
+    scene: Kept,
+}
+
+/// Width and height of a picture in a notebook, pixels.
+const SHOWN: [u32; 2] = [640, 480];
+
+impl Cloth {
+    pub(crate) fn new(cloth: texere::Cloth, device: String) -> Self {
+        Self { cloth: Arc::new(cloth), device, picker: OnceLock::new(), scene: Kept::default() }
+    }
+}
+
+#[pymethods]
+impl Cloth {
+    /// The yarns. Does not copy.
+    ///
+    /// >>> len(texere.read("designs/plain.toml").placed().yarns)
+    /// 112
+    #[getter]
+    fn yarns(&self) -> Yarns {
+        Yarns { yarns: Shared::Cloth(self.cloth.clone()) }
+    }
+
+    /// The tubes of the yarns, as triangles.
+    ///
+    /// ``sides`` is the corners of a section, ``subdivisions`` the rings between two control
+    /// points: without them, what ``texere mesh`` takes for these yarns. ``caps`` closes the ends
+    /// of yarns. ``device`` is a name of :func:`texere.devices`, or ``auto`` for the best one.
+    /// Ctrl-C ends the call.
+    ///
+    /// >>> cloth = texere.read("designs/plain.toml").placed()
+    /// >>> cloth.mesh(sides=8, device="cpu")
+    /// <texere.Mesh 390528 vertices, 779264 triangles>
+    ///
+    /// Raises :class:`texere.Error` for settings out of range, and for a device that fails.
+    #[pyo3(signature = (sides=None, subdivisions=None, *, caps=false, device="auto"))]
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        sides: Option<u32>,
+        subdivisions: Option<u32>,
+        caps: bool,
+        device: &str,
+    ) -> PyResult<Mesh> {
+        let yarns = Shared::Cloth(self.cloth.clone());
+        Mesh::make(py, &yarns, settings(&yarns, sides, subdivisions, caps), device)
+    }
+
+    /// Measures of the cloth: yarn, weight, thickness, crimp, cover, loops.
+    ///
+    /// >>> cloth = texere.read("designs/plain.toml").placed()
+    /// >>> cloth.measures.warp_crimp > 0
+    /// True
+    ///
+    /// Raises :class:`texere.Error` where they can't be taken.
+    #[getter]
+    fn measures(&self, py: Python<'_>) -> PyResult<Measures> {
+        watch::quietly(py, |_| Measures::new(&self.cloth))
+    }
+
+    /// What is wrong with the cloth, where, and what would cure it. Its time grows with the cloth,
+    /// so keep what it gives.
+    ///
+    /// >>> texere.read("designs/poplin.toml").placed().diagnosis.is_clean
+    /// False
+    ///
+    /// Raises :class:`texere.Error` where it can't be measured.
+    #[getter]
+    fn diagnosis(&self, py: Python<'_>) -> PyResult<Diagnosis> {
+        watch::quietly(py, |run| Diagnosis::new(&self.cloth, &self.device, run))
+    }
+
+    /// How near the yarns come to one another, and how tightly they bend.
+    ///
+    /// >>> texere.read("designs/poplin.toml").placed().clearance().least < 0.9
+    /// True
+    ///
+    /// Raises :class:`texere.Error` where it can't be measured.
+    fn clearance(&self, py: Python<'_>) -> PyResult<Clearance> {
+        watch::quietly(py, |run| Clearance::new(&self.cloth, run))
+    }
+
+    /// The first place on a yarn that a ray hits, or None. ``ray`` has the shape (2, 3): its origin
+    /// and its direction, mm; copied. The first ray makes what later ones are found with.
+    ///
+    /// >>> hit = texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]])
+    /// >>> assert hit is not None
+    /// >>> hit.name
+    /// 'pick 24 at end 31, ecru'
+    ///
+    /// Raises TypeError and ValueError for what is no ray.
+    fn pick(&self, py: Python<'_>, ray: &Bound<'_, PyAny>) -> PyResult<Option<Hit>> {
+        let ray = pick::ray(ray)?;
+        let (design, yarns) = (self.cloth.design(), self.cloth.yarns());
+        if self.picker.get().is_none() {
+            let settings = settings(yarns, None, None, false);
+            let plan = Plan::new(yarns.layout().clone(), settings).raise(py)?;
+            let picker = watch::quietly(py, |_| Picker::new(Arc::new(plan), yarns.points()))?;
+            let _ = self.picker.set(picker);
+        }
+        let Some(hit) = self.picker.get().and_then(|picker| picker.pick(&ray)) else { return Ok(None) };
+        let place = YarnPlace::at(yarns, hit.place.yarn as usize, hit.interval as usize, hit.t);
+        let name = place.map(|place| design.named(yarns, &place).to_string()).unwrap_or_default();
+        Ok(Some(Hit { hit, name }))
+    }
+
+    /// The cloth, to be edited: lifts, control points, colours. Its mesh is kept on ``device``.
+    ///
+    /// >>> texere.read("designs/plain.toml").placed().edit(device="cpu")
+    /// <texere.Live 'Plain weave in ecru'>
+    ///
+    /// Raises :class:`texere.Error` for a device that fails, or that can't edit.
+    #[pyo3(signature = (*, device="auto"))]
+    fn edit(&self, py: Python<'_>, device: &str) -> PyResult<Editing> {
+        Editing::new(py, &self.cloth, device)
+    }
+
+    /// Writes the cloth by the ending of the path: ``.glb`` and ``.ply``, its mesh as :meth:`mesh`
+    /// makes it, piece by piece in bounded memory; ``.yarns``, its yarns to the bit. The file
+    /// appears whole or not at all, and replaces no file of the design.
+    ///
+    /// >>> import tempfile, pathlib
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
+    /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
+    ///
+    /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
+    /// be written.
+    #[pyo3(signature = (path, *, device="auto"))]
+    fn write(&self, py: Python<'_>, path: PathBuf, device: &str) -> PyResult<()> {
+        let yarns = self.cloth.yarns();
+        let output = Output::to(&path).sparing(self.cloth.design().files());
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns")) {
+            return watch::quietly(py, |_| texere::write::yarns(yarns, output).map(|_| ()));
+        }
+        let device = watch::quietly(py, |_| device::open(device))?;
+        let pipeline = || mesh::pipeline(yarns, settings(yarns, None, None, false));
+        watch::quietly(py, |run| {
+            texere::write::stream(mesh::followed(pipeline(), run), &*device, output).map(|_| ())
+        })
+    }
+
+    /// A picture of the cloth: uint8 of shape (height, width, 3), sRGB, rows from the top; the
+    /// array owns its memory; no copy is made of it.
+    ///
+    /// ``size`` is width and height, pixels. ``view`` is ``face``, ``back``, ``oblique`` (turned by
+    /// ``turn``, radians), ``close-up``, ``cut-warp`` and ``cut-weft`` (``width_mm`` of the cloth
+    /// round the point ``at``), or ``eye`` (``eye`` is the eye, the point that it looks at, and
+    /// what is up in the picture, mm; ``field_of_view`` from the lower to the upper edge, radians).
+    /// ``background`` is ``ground``, a colour, or ``nothing``: then the picture has a fourth
+    /// channel, alpha. ``supersampling`` is the pixels that are drawn for each, each way, with four
+    /// samples each. ``hairs`` are fibres that stand off yarns. ``device`` is one of ``wgpu``.
+    ///
+    /// With ``layers`` it gives a dict of arrays: ``color`` is the picture, and beside it what was
+    /// asked for. A pixel counts as its first sample does.
+    ///
+    /// - ``depth``: float32 of (height, width), the distance along the pixel's line of sight, mm,
+    ///   from the eye, or from a plane before the cloth where lines of sight are parallel. Infinite
+    ///   where there is no yarn.
+    /// - ``yarn``: int32, the number of the yarn; -1 where there is none.
+    /// - ``position``, ``normal``: float32 of (height, width, 3): the place on the surface, mm, and
+    ///   the unit normal, in the coordinates of the cloth.
+    /// - ``tangent``: the direction of the fibres along the surface, which turn with the twist.
+    /// - ``uv``: float32 of (height, width, 2): the angle round the yarn, radians, and the distance
+    ///   along it in rings of the picture's own mesh, modulo 8192, in eighths.
+    ///
+    /// >>> cloth = texere.read("designs/plain.toml").placed()
+    /// >>> shown = cloth.picture(size=(80, 60), layers=["yarn", "depth"])
+    /// >>> shown["color"].shape, shown["yarn"].shape, sorted(shown)
+    /// ((60, 80, 3), (60, 80), ['color', 'depth', 'yarn'])
+    ///
+    /// Raises :class:`texere.Error` where there is no device for pictures, and for a view or a size
+    /// that it can't do; ValueError for a view or a layer that there is not.
+    #[pyo3(signature = (size=(1600, 1200), view="face", *, turn=0.0, at=None, width_mm=None, eye=None, field_of_view=0.42, background=None, supersampling=2, hairs=true, layers=None, device="auto"))]
+    #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
+    fn picture<'py>(
+        &self,
+        py: Python<'py>,
+        size: (u32, u32),
+        view: &str,
+        turn: f32,
+        at: Option<(f32, f32)>,
+        width_mm: Option<f32>,
+        eye: Option<([f32; 3], [f32; 3], [f32; 3])>,
+        field_of_view: f32,
+        background: Option<&Bound<'py, PyAny>>,
+        supersampling: u32,
+        hairs: bool,
+        layers: Option<Vec<String>>,
+        device: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let quality = Quality { supersampling, hairs };
+        let background = background.map_or(Ok(Background::Ground), picture::background)?;
+        let view = View::new(view, turn, at.zip(width_mm), eye, field_of_view)?;
+        let asked = Asked { size: size.into(), view, background, quality };
+        let yarns = Shared::Cloth(self.cloth.clone());
+        picture::picture(py, &yarns, &self.scene, &asked, device, layers)
+    }
+
+    /// Shows the mesh of the cloth in a window of pyvista, or in a notebook:
+    /// :meth:`texere.Mesh.show` of :meth:`mesh`.
+    ///
+    /// >>> texere.read("designs/plain.toml").placed().show() # doctest: +SKIP
+    ///
+    /// Raises ImportError unless pyvista is installed.
+    #[pyo3(signature = (**options))]
+    fn show<'py>(
+        &self,
+        py: Python<'py>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        peers::show(&Bound::new(py, self.mesh(py, None, None, false, "auto")?)?, options)
+    }
+
+    /// A picture for notebooks. None where there is no device for pictures.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        if !picture::has_device(py) {
+            return Ok(None);
+        }
+        let quality = Quality { supersampling: 2, hairs: true };
+        let asked = Asked { size: SHOWN, view: View::Face, background: Background::Ground, quality };
+        let yarns = Shared::Cloth(self.cloth.clone());
+        let png = picture::png(py, &yarns, &self.scene, &asked)?;
+        Ok(Some(PyBytes::new(py, &png)))
+    }
+
+    /// How the yarns came to rest, in words.
+    ///
+    /// >>> texere.read("designs/poplin.toml").placed().report
+    /// 'placed as the structure says'
+    #[getter]
+    fn report(&self) -> String {
+        self.cloth.report().to_string()
+    }
+
+    /// Whether the yarns came to rest.
+    ///
+    /// >>> texere.read("designs/poplin.toml").placed().is_at_rest
+    /// False
+    #[getter]
+    fn is_at_rest(&self) -> bool {
+        matches!(self.cloth.report(), RestReport::Finished(finished) if finished.is_at_rest())
+    }
+
+    /// The name of the device on which the yarns came to rest; empty for those that are placed.
+    ///
+    /// >>> texere.read("designs/poplin.toml").rest(device="cpu").device
+    /// 'cpu'
+    #[getter]
+    fn device(&self) -> &str {
+        &self.device
+    }
+
+    /// What a designer should know: what the finish asks for and the cloth did not reach, what the
+    /// reader had to assume. Copies.
+    ///
+    /// >>> texere.read("designs/poplin.toml").rest(device="cpu", progress=False).warnings
+    /// []
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.cloth.warnings()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<texere.Cloth '{}', {}>", self.cloth.design().name, self.cloth.report())
+    }
+}

@@ -1,0 +1,75 @@
+//! texere for Python: the module `texere._texere`, whose names the package `texere` takes over.
+//!
+//! ```text
+//! texere.read ──> Design.rest ──> Cloth.mesh ──> numpy arrays | Mesh.write
+//! ```
+//!
+//! # How calls work
+//!
+//! - Objects of Python hold values of the facade, shared and never changed, so that any thread may
+//!   use them and any order of freeing is right.
+//! - Arrays are read-only views of memory that such an object owns. Their `base` is that object.
+//! - While Rust works the calling thread has let go of Python ([`watch`]). It looks four times in
+//!   0.2 s whether Python asks to stop.
+//! - Errors of texere are [`error::Error`], with the place in the design's file. Arguments of the
+//!   wrong type or shape are Python's own `TypeError` and `ValueError`.
+
+mod arrays;
+mod check;
+mod cloth;
+mod design;
+mod device;
+mod edit;
+mod error;
+mod knit;
+mod measures;
+mod mesh;
+mod peers;
+mod pick;
+mod picture;
+mod progress;
+mod watch;
+mod whole;
+mod woven;
+mod yarn;
+mod yarns;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _texere {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::check::{Clearance, Contact, Diagnosis};
+    #[pymodule_export]
+    use crate::cloth::Cloth;
+    #[pymodule_export]
+    use crate::design::{Design, read};
+    #[pymodule_export]
+    use crate::device::{Device, devices};
+    #[pymodule_export]
+    use crate::edit::Editing;
+    #[pymodule_export]
+    use crate::error::Error;
+    #[pymodule_export]
+    use crate::knit::{Bar, warp_knit, weft_knit};
+    #[pymodule_export]
+    use crate::measures::Measures;
+    #[pymodule_export]
+    use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::pick::Hit;
+    #[pymodule_export]
+    use crate::woven::{weave, woven};
+    #[pymodule_export]
+    use crate::yarn::YarnSpec;
+    #[pymodule_export]
+    use crate::yarns::{Yarns, read_yarns};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        crate::error::complete(module.py())
+    }
+}

@@ -1,0 +1,181 @@
+//! Yarns as they lie on the bobbin: thickness, twist, section, colour.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use texere::weft::KnitYarn;
+use texere::woven::Thread;
+use texere::yarn::{COTTON_DENSITY, Material, Section, diameter_mm, twist_from_turns_per_m};
+
+/// A yarn as it lies on the bobbin: what a design in code is made of.
+///
+/// ``diameter_mm`` is that of the round yarn. Without it, it follows from ``tex`` (g/km) and
+/// ``density`` (g/cm³, that of cotton yarn if not given). ``twist_per_m`` is turns per metre, above
+/// 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to 255, sRGB. ``section`` is
+/// ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect, distortion)``,
+/// ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness`` (width over height
+/// in the cloth, 0.1 to 10) and ``stiffness`` (0.01 to 100, 1 for cotton) count in woven cloth
+/// alone. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
+///
+/// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
+/// <texere.Yarn 'yarn', 0.265 mm>
+///
+/// Raises ValueError for a colour, a section or a thickness that is none. Limits are checked when
+/// cloth is made of the yarn.
+#[pyclass(frozen, module = "texere", name = "Yarn")]
+#[derive(Debug)]
+pub(crate) struct YarnSpec {
+    material: Material,
+    section: Section,
+    /// Diameter of the round yarn, mm.
+    ///
+    /// >>> texere.Yarn(diameter_mm=0.3).diameter_mm
+    /// 0.3
+    #[pyo3(get)]
+    diameter_mm: f64,
+    twist: f32,
+    flatness: f32,
+    stiffness: f32,
+}
+
+#[pymethods]
+impl YarnSpec {
+    #[new]
+    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=0.0, section=None, flatness=1.0, stiffness=1.0, hairiness=0.0))]
+    #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
+    fn new(
+        diameter_mm: Option<f64>,
+        tex: Option<f32>,
+        density: Option<f64>,
+        color: Option<&Bound<'_, PyAny>>,
+        name: &str,
+        twist_per_m: f64,
+        section: Option<&Bound<'_, PyAny>>,
+        flatness: f32,
+        stiffness: f32,
+        hairiness: f32,
+    ) -> PyResult<Self> {
+        let of_tex = |tex| self::diameter_mm(f64::from(tex), density.unwrap_or(COTTON_DENSITY));
+        let Some(diameter_mm) = diameter_mm.or(tex.map(of_tex)) else {
+            return Err(PyValueError::new_err("a yarn needs diameter_mm or tex"));
+        };
+        if !(diameter_mm.is_finite() && diameter_mm > 0.0) {
+            return Err(PyValueError::new_err(format!(
+                "the yarn is {diameter_mm} mm thick, expected above 0"
+            )));
+        }
+        let srgb = color.map_or(Ok(Material::default().srgb), srgb)?;
+        let section = section.map_or(Ok(Section::Circle), self::section)?;
+        section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
+        let material = Material { name: name.into(), srgb, tex, hairiness };
+        let twist = twist_from_turns_per_m(twist_per_m) as f32;
+        Ok(Self { material, section, diameter_mm, twist, flatness, stiffness })
+    }
+
+    /// The name of the yarn's material.
+    ///
+    /// >>> texere.Yarn(diameter_mm=0.3, name="cotton").name
+    /// 'cotton'
+    #[getter]
+    fn name(&self) -> &str {
+        &self.material.name
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<texere.Yarn '{}', {:.3} mm>", self.material.name, self.diameter_mm)
+    }
+}
+
+/// A colour: `"#rrggbb"`, or three numbers.
+pub(crate) fn srgb(value: &Bound<'_, PyAny>) -> PyResult<[u8; 3]> {
+    let Ok(text) = value.extract::<String>() else { return value.extract() };
+    let is_hex = |hex: &&str| hex.len() == 6 && hex.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let hex = text.strip_prefix('#').filter(is_hex);
+    hex.and_then(|hex| u32::from_str_radix(hex, 16).ok())
+        .map(|number| [16, 8, 0].map(|shift| (number >> shift) as u8))
+        .ok_or_else(|| PyValueError::new_err(format!("color is {text:?}, expected \"#rrggbb\"")))
+}
+
+/// A section by its name and its numbers.
+fn section(value: &Bound<'_, PyAny>) -> PyResult<Section> {
+    if let Ok(name) = value.extract::<String>()
+        && name == "circle"
+    {
+        return Ok(Section::Circle);
+    }
+    if let Ok((name, plies)) = value.extract::<(String, u32)>()
+        && name == "lobed"
+    {
+        return Ok(Section::Lobed { plies });
+    }
+    if let Ok((name, aspect)) = value.extract::<(String, f32)>()
+        && name == "ellipse"
+    {
+        return Ok(Section::Ellipse { aspect });
+    }
+    match value.extract::<(String, f32, f32)>() {
+        Ok((name, aspect, distortion)) if name == "lenticular" => {
+            Ok(Section::Lenticular { aspect, distortion })
+        }
+        Ok((name, aspect, exponent)) if name == "power-ellipse" => {
+            Ok(Section::PowerEllipse { aspect, exponent })
+        }
+        _ => Err(PyValueError::new_err(format!(
+            "section is {}, expected \"circle\", (\"ellipse\", aspect), (\"lenticular\", aspect, distortion), \
+             (\"power-ellipse\", aspect, exponent) or (\"lobed\", plies)",
+            value.repr()?
+        ))),
+    }
+}
+
+/// The yarns of a design, each with the numbers of its material and its section.
+#[derive(Debug, Default)]
+pub(crate) struct Bobbins {
+    pub(crate) materials: Vec<Material>,
+    pub(crate) sections: Vec<Section>,
+    yarns: Vec<(KnitYarn, [f32; 2])>,
+}
+
+impl Bobbins {
+    /// Adds a yarn, or a sequence of yarns. Returns their numbers.
+    ///
+    /// **Errors**: `TypeError` for what is no yarn, `ValueError` for no yarn at all.
+    pub(crate) fn add(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+        let yarns = match value.extract::<PyRef<'_, YarnSpec>>() {
+            Ok(one) => vec![one],
+            Err(_) => value.extract::<Vec<PyRef<'_, YarnSpec>>>().map_err(|_| {
+                PyTypeError::new_err(format!("{name} is neither a texere.Yarn nor a sequence of them"))
+            })?,
+        };
+        if yarns.is_empty() {
+            return Err(PyValueError::new_err(format!("{name} has no yarn")));
+        }
+        let first = self.yarns.len();
+        for yarn in &yarns {
+            let known = self.sections.iter().position(|section| *section == yarn.section);
+            let section = known.unwrap_or_else(|| {
+                self.sections.push(yarn.section.clone());
+                self.sections.len() - 1
+            });
+            let own = KnitYarn {
+                radius_mm: (yarn.diameter_mm / 2.0) as f32,
+                material: self.materials.len() as u32,
+                section: section as u32,
+                twist: yarn.twist,
+            };
+            self.materials.push(yarn.material.clone());
+            self.yarns.push((own, [yarn.flatness, yarn.stiffness]));
+        }
+        Ok((first..self.yarns.len()).collect())
+    }
+
+    /// The yarns of a knit.
+    pub(crate) fn knit(&self) -> Vec<KnitYarn> {
+        self.yarns.iter().map(|(yarn, _)| *yarn).collect()
+    }
+
+    /// A thread of a yarn by its number.
+    pub(crate) fn thread(&self, number: usize, spacing_mm: f64) -> Thread {
+        let (KnitYarn { radius_mm, material, section, twist }, [flatness, stiffness]) = self.yarns[number];
+        Thread { spacing_mm, radius_mm, flatness, stiffness, material, section, twist }
+    }
+}

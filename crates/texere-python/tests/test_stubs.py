@@ -1,0 +1,46 @@
+"""The stubs are those of the module, and the examples in docstrings have the types that they say."""
+
+import doctest
+import inspect
+import subprocess
+import sys
+import textwrap
+
+import texere
+
+from test_examples import NAMES
+
+
+def run(*args):
+    done = subprocess.run([sys.executable, *args], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_stubs_are_those_of_the_module(tmp_path):
+    # Python calls `__new__` of the classes of Rust; what it makes of them itself is not in stubs.
+    allowed = tmp_path / "allowed"
+    allowed.write_text("texere._texere.__all__\n")
+    run("-m", "mypy.stubtest", "texere", "--allowlist", str(allowed), "--ignore-unused-allowlist")
+
+
+def test_examples_are_strictly_typed(tmp_path):
+    lines = ["import numpy as np", "import texere", ""]
+    for number, value in enumerate(NAMES.values()):
+        lines.append(f"def example_{number}() -> None:")
+        for example in doctest.DocTestParser().get_examples(inspect.getdoc(value)):
+            lines.append(textwrap.indent(example.source, "    "))
+    assert len(lines) > 200
+    examples = tmp_path / "examples.py"
+    examples.write_text("\n".join(lines))
+    run("-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(examples))
+
+
+def test_a_wrong_type_is_seen(tmp_path):
+    wrong = tmp_path / "wrong.py"
+    wrong.write_text("import texere\nsides: str = texere.read('a').placed().mesh().nbytes\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(wrong)],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1 and "assignment" in done.stdout

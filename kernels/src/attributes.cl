@@ -7,8 +7,8 @@
 #define ATTRIBUTES_GROUP 64
 #define YARN_LENGTHS_GROUP 256
 
-// An attribute (Rust: Attribute) is three uint2: the yarn and the bits of the angle, of the length
-// and the tangent's x, and of its y and z.
+// An attribute (Rust: Attribute) is three uint2: the yarn and the bits of the angle; the bits of
+// the length and of the tangent's x; the bits of the tangent's y and z.
 
 // A length in mm as whole steps.
 ulong length_from_mm(float mm) {
@@ -27,7 +27,8 @@ float segment_speed(const Segment *segment, float t) {
     return sqrt(dot3(velocity, velocity));
 }
 
-// A length by one rule, and the lowest and the highest speed at the rule's nodes.
+// A length by the Gauss-Legendre rule, and the lowest and the highest speed at the rule's nodes and
+// in the middle.
 typedef struct {
     float length;
     float slowest;
@@ -59,7 +60,8 @@ Rule length_by_rule(const Segment *segment, float from, float to) {
     return rule;
 }
 
-// The length between two parameters. If the speed is uneven, the length is added up from parts.
+// The length between two parameters. If the speed is uneven, the interval between them is split
+// into parts, whose lengths are added up.
 float segment_length(const Segment *segment, float from, float to) {
     Rule rule = length_by_rule(segment, from, to);
     if (rule.slowest >= ARC_EVEN * rule.fastest) {

@@ -60,9 +60,9 @@ typedef struct {
 
 // A control point (Rust: ControlPoint) is a uint4: the bits of x, y, z, and two half floats, half
 // width and half height. A section point (Rust: SectionPoint) is a float4 of x, y, normal x, normal
-// y. A ring (Rust: Ring) is three uint4: the bits of the centre and the half width; of the tangent,
-// and the roll; of the half height and both growths, and the lean. A vertex (Rust: Vertex) is six
-// floats: x y z nx ny nz.
+// y. A ring (Rust: Ring) is three uint4: the bits of the centre and of the half width; the bits of
+// the tangent, and the roll; the bits of the half height and of both growths, and the lean. A
+// vertex (Rust: Vertex) is six floats: x y z nx ny nz.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -166,8 +166,8 @@ float point_height(uint4 point) {
     return vload_half(1, (const half *)&halves);
 }
 
-// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are its differences from
-// the start at the point before, at the end, and at the point after.
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are the sizes at the
+// point before, at the end and at the point after, each less the size at the start.
 float3 size_terms(float a, float b, float c, float s) {
     return (float3)((b - a) * s, a * (2.0f * s) + b * (3.0f - 2.0f * s) - c * s, (c - a) * s + b * (s - 2.0f));
 }

@@ -53,8 +53,9 @@ typedef struct {
 
 #define NOWHERE 0xffffffffu
 
-// The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
-// follows the last. Otherwise a number before the first or after the last is NOWHERE.
+// The number that lies `by` after `at`, of the numbers from 0 to `count` - 1. If the numbers
+// repeat, the first follows the last. Otherwise a number before the first or after the last is
+// NOWHERE.
 uint further(uint at, int by, uint count, bool repeats) {
     int way = (int)at + by;
     int whole = (int)count;
@@ -64,8 +65,8 @@ uint further(uint at, int by, uint count, bool repeats) {
     return repeats ? (uint)(by < 0 ? way + whole : way - whole) : NOWHERE;
 }
 
-// The crossing that lies `along` crossings further along a thread of `of_set`, and `across` threads
-// of that set aside.
+// The crossing that lies `along` crossings further along a thread of set `of_set`, and `across`
+// threads of that set to the side.
 uint2 beside(const Cloth *cloth, uint2 site, uint of_set, int along, int across) {
     int ends = of_set == WARP ? across : along;
     int picks = of_set == WARP ? along : across;

@@ -34,7 +34,7 @@ StraightPassage passage_of(float across, float rise, float4 halves, float thread
     float distance = sqrt(across * across + rise * rise);
     float2 excess = halves.xz * halves.xz - halves.yw * halves.yw;
     // The steps below begin at the best of three slopes: that of round threads, level, and upright.
-    // Wide ellipses leave most room at one of the three.
+    // Wide ellipses leave most room near level or upright.
     float2 slope = rise > 0.0f ? (float2)(rise, across) / distance : upright;
     float most = left_by(across, rise, halves, slope);
     float left = left_by(across, rise, halves, level);

@@ -59,7 +59,7 @@ void add_difference(CrossingBlock *block, float4 lie, const Along *other, float 
 }
 
 // The room between a thread and the threads that it crosses, on the way between two crossings. This
-// crossing is the second of the two if `second` is true, and else the first.
+// crossing is the second of the two if `second` is true, and otherwise the first.
 typedef struct {
     float room;
     // The slopes of the room in the thread's height and half height, and in the unknowns of the

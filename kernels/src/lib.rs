@@ -41,8 +41,9 @@ pub const MESH: EntryPoint = EntryPoint { name: "mesh", group: 128 };
 /// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: EntryPoint = EntryPoint { name: "mesh_odd", ..MESH };
 
-/// The number of lanes in a workgroup of [`MESH`] that writes no indices. There is less to write
-/// for each ring then, and lanes without a ring would take more time than they save.
+/// The number of lanes in a workgroup of [`MESH`] that writes no indices. Without indices there is
+/// less to write for each ring, so lanes beyond one for each ring would take more time than they
+/// save.
 pub const UNINDEXED_GROUP: usize = 64;
 
 /// The caps of a chunk, after [`MESH`]. It runs with one lane for each cap vertex.
@@ -168,7 +169,7 @@ pub const PER_RING: KernelProgram = KernelProgram {
     entries: &[BLOCK_TURNS, YARN_ROLLS, TRAJECTORY, MESH, MESH_ODD, CAPS],
 };
 
-/// The schedule per-yarn, the paper's, for upright, untwisted, open yarns without caps.
+/// The paper's schedule, per-yarn, for upright, untwisted, open yarns without caps.
 pub const PER_YARN: KernelProgram = KernelProgram {
     name: "per-yarn",
     sources: &[include_str!("common.cl"), include_str!("per_yarn.cl")],
@@ -265,7 +266,7 @@ mod tests {
     fn no_function_of_lower_accuracy_is_called() {
         for program in [PER_RING, PER_YARN, ATTRIBUTES, PACKING, SETTLING, CROSSINGS] {
             let source = program.sources.concat();
-            // Half widths, half heights, half gaps and half ways are no functions of the language.
+            // These four names begin like functions of low accuracy, but are names of values.
             let source = ["half_width", "half_height", "half_gap", "half_way"]
                 .iter()
                 .fold(source, |source, name| source.replace(name, ""));

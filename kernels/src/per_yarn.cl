@@ -1,10 +1,10 @@
-// The paper's algorithms 2 and 4, with one lane for each yarn. The schedule per-ring is measured
-// against them. This file follows common.cl.
+// The paper's algorithms 2 and 4, in which a lane makes a yarn, or a part of a yarn. Measurements
+// compare the schedule per-ring with them. This file follows common.cl.
 //
-// Its twin is per_yarn.wgsl. It makes what the paper makes: upright, untwisted, open yarns without
-// caps. A lane makes a part, which is a run of one yarn's rings in a chunk, so that a fabric may be
-// larger than a device's buffers. Here `blocks` has one row for each part: the row of its first
-// block, but with the number of all the part's rings.
+// Its twin is per_yarn.wgsl. Both make only what the paper makes: upright, untwisted, open yarns
+// without caps. A lane makes a part, which is a run of one yarn's rings in a chunk, so that a
+// fabric may be larger than a device's buffers. Here `blocks` has one row for each part: the row of
+// its first block, but with the number of all the part's rings.
 
 #define PER_YARN_GROUP 64
 

@@ -63,9 +63,9 @@ typedef struct {
 } ChordRow;
 
 // A place (Rust: Place) is a uint4: x, y and z in units (i32, as bits so that sums wrap), and two
-// half floats. A chord that passes read is two uint4. The first has the point where the chord
-// begins and the place of its interval, the second the bits of the chord's span, mm, and of the
-// largest half width or half height of the interval.
+// half floats. A chord, in the form that passes read, is two uint4. The first has the point where
+// the chord begins and the place of its interval, the second the bits of the chord's span, mm, and
+// of the largest half width or half height of the interval.
 
 float dot3(float3 a, float3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -75,7 +75,7 @@ float length3(float3 a) {
     return sqrt(dot3(a, a));
 }
 
-// `value`, limited to 0 to 1.
+// `value`, limited to the range from 0 to 1.
 float share(float value) {
     return fmin(fmax(value, 0.0f), 1.0f);
 }
@@ -200,7 +200,7 @@ uint2 nearest_image(const SettlingParams *params, float3 one, float3 other, uint
                    -as_uint(convert_int_sat(floor(apart.y * params->frequency_y + 0.5f))));
 }
 
-// `way`, led on by `image` repeats: the way to that image.
+// The way to an image: `way`, moved by `image` repeats.
 uint3 to_image(const SettlingParams *params, uint3 way, uint2 image) {
     return (uint3)(way.x + image.x * (uint)params->period_x, way.y + image.y * (uint)params->period_y, way.z);
 }

@@ -29,7 +29,7 @@ typedef struct {
 } BoundsRow;
 
 // The position of a place, mm: origin + units * unit, rounded once. Units are split into two parts
-// that floats hold exactly. What the first sum loses is added to the other part.
+// that floats hold exactly. The rounding error of the first sum is added to the other part.
 float3 position(const SettledParams *settled, __global const uint4 *places, uint place) {
     int3 units = as_int3(places[place].xyz);
     float3 origin = (float3)(settled->origin[0], settled->origin[1], settled->origin[2]);

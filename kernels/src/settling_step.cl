@@ -2,9 +2,9 @@
 //
 // Its twins are settling_step.wgsl, and Gathered in texere-core's pass.rs.
 
-// Four intervals pull at a point. They begin one place behind it, at it, one place before it, and
-// two places before it, and the point has slots 0 to 3 in them. NOWHERE stands for an interval that
-// the yarn does not have.
+// Four intervals pull at a point. They begin at the next place, at the point's own place, at the
+// place before it, and two places before it. In these four intervals the point has slots 0, 1, 2
+// and 3. NOWHERE stands for an interval that the yarn does not have.
 #define NOWHERE 0xffffffffu
 
 uint interval_place(const StrandRow *strand, int number) {

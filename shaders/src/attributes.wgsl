@@ -9,8 +9,8 @@ const YARN_LENGTHS_GROUP = 256u;
 
 // For each block, the length of its yarn up to the block's first ring.
 @group(0) @binding(42) var<storage, read_write> arc_lengths: array<vec2<u32>>;
-// An attribute (Rust: Attribute) is three elements: the yarn and the bits of the angle, of the
-// length and the tangent's x, and of its y and z.
+// An attribute (Rust: Attribute) is three elements: the yarn and the bits of the angle; the bits of
+// the length and of the tangent's x; the bits of the tangent's y and z.
 @group(0) @binding(43) var<storage, read_write> attribute_pieces: array<vec2<u32>>;
 @group(0) @binding(10) var<storage, read> attribute_caps: array<CapRow>;
 
@@ -40,7 +40,8 @@ fn segment_speed(segment: Segment, t: f32) -> f32 {
     return sqrt(dot(velocity, velocity));
 }
 
-// A length by one rule, and the lowest and the highest speed at the rule's nodes.
+// A length by the Gauss-Legendre rule, and the lowest and the highest speed at the rule's nodes and
+// in the middle.
 struct Rule {
     length: f32,
     slowest: f32,
@@ -69,7 +70,8 @@ fn length_by_rule(segment: Segment, start: f32, end: f32) -> Rule {
     return rule;
 }
 
-// The length between two parameters. If the speed is uneven, the length is added up from parts.
+// The length between two parameters. If the speed is uneven, the interval between them is split
+// into parts, whose lengths are added up.
 fn segment_length(segment: Segment, start: f32, end: f32) -> f32 {
     let rule = length_by_rule(segment, start, end);
     if rule.slowest >= ARC_EVEN * rule.fastest {

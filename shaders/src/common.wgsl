@@ -58,9 +58,9 @@ struct Params {
 
 // A control point (Rust: ControlPoint) is a vec4<u32>: the bits of x, y, z, and two half floats,
 // half width and half height. A section point (Rust: SectionPoint) is a vec4 of x, y, normal x,
-// normal y. A ring (Rust: Ring) is three vec4<u32>: the bits of the centre and the half width; of
-// the tangent, and the roll; of the half height and both growths, and the lean. A vertex (Rust:
-// Vertex) is six floats: x y z nx ny nz.
+// normal y. A ring (Rust: Ring) is three vec4<u32>: the bits of the centre and of the half width;
+// the bits of the tangent, and the roll; the bits of the half height and of both growths, and the
+// lean. A vertex (Rust: Vertex) is six floats: x y z nx ny nz.
 
 // Points are bound from the start of the chunk's window.
 @group(0) @binding(0) var<uniform> params: Params;
@@ -164,8 +164,8 @@ fn point_height(point: vec4<u32>) -> f32 {
     return unpack2x16float(point.w).y;
 }
 
-// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are its differences from
-// the start at the point before, at the end, and at the point after.
+// Coefficients of t (x), t^2 (y) and t^3 (z) for a size. `a`, `b` and `c` are the sizes at the
+// point before, at the end and at the point after, each less the size at the start.
 fn size_terms(a: f32, b: f32, c: f32, s: f32) -> vec3<f32> {
     return vec3((b - a) * s, a * (2.0 * s) + b * (3.0 - 2.0 * s) - c * s, (c - a) * s + b * (s - 2.0));
 }

@@ -48,8 +48,9 @@ const WEFT = 1u;
 
 const NOWHERE = 0xffffffffu;
 
-// The number that is `by` further on than `at`, of `count` numbers. If they repeat, the first
-// follows the last. Otherwise a number before the first or after the last is NOWHERE.
+// The number that lies `by` after `at`, of the numbers from 0 to `count` - 1. If the numbers
+// repeat, the first follows the last. Otherwise a number before the first or after the last is
+// NOWHERE.
 fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     let way = bitcast<i32>(at) + by;
     let whole = bitcast<i32>(count);
@@ -59,8 +60,8 @@ fn further(at: u32, by: i32, count: u32, repeats: bool) -> u32 {
     return select(NOWHERE, bitcast<u32>(select(way - whole, way + whole, by < 0)), repeats);
 }
 
-// The crossing that lies `along` crossings further along a thread of `of_set`, and `across` threads
-// of that set aside.
+// The crossing that lies `along` crossings further along a thread of set `of_set`, and `across`
+// threads of that set to the side.
 fn beside(site: vec2<u32>, of_set: u32, along: i32, across: i32) -> vec2<u32> {
     let ends = select(along, across, of_set == WARP);
     let picks = select(across, along, of_set == WARP);

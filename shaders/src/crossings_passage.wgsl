@@ -34,7 +34,7 @@ fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> Straigh
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
     // The steps below begin at the best of three slopes: that of round threads, level, and upright.
-    // Wide ellipses leave most room at one of the three.
+    // Wide ellipses leave most room near level or upright.
     var slope = vec2(0.0, 1.0);
     if rise > 0.0 {
         slope = vec2(rise, across) / distance;

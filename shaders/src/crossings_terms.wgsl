@@ -61,7 +61,7 @@ fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Al
 }
 
 // The room between a thread and the threads that it crosses, on the way between two crossings. This
-// crossing is the second of the two if `second` is true, and else the first.
+// crossing is the second of the two if `second` is true, and otherwise the first.
 struct Meeting {
     room: f32,
     // The slopes of the room in the thread's height and half height, and in the unknowns of the

@@ -1,6 +1,6 @@
 // The rings of a block in workgroup memory. Stages 1 and 2 of the schedule per-ring begin with
 // them. This file follows common.wgsl and the constant RINGS_BEYOND, which is 1 if the ring that
-// the block's last quads lead to is wanted, too, and else 0.
+// the block's last quads lead to is wanted, too, and otherwise 0.
 //
 // rings.cl is the twin of this file.
 

@@ -74,9 +74,9 @@ struct SeenRow {
 // A place (Rust: Place) is a vec4<i32>: x, y and z, units, and two half floats, half width and half
 // height. A row of the chord table (Rust: texere_gpu::ChordRow) is a vec4<u32>: the place of its
 // interval, where along the yarn it begins and ends, and the bits of the largest half width or half
-// height of its interval. A chord that passes read is two vec4<u32>. The first has the point where
-// the chord begins and the place of its interval, the second the bits of the chord's span, mm, and
-// of the largest half width or half height of the interval.
+// height of its interval. A chord, in the form that passes read, is two vec4<u32>. The first has
+// the point where the chord begins and the place of its interval, the second the bits of the
+// chord's span, mm, and of the largest half width or half height of the interval.
 
 @group(0) @binding(12) var<uniform> settling: SettlingParams;
 @group(0) @binding(13) var<storage, read> place_rows: array<PlaceRow>;
@@ -89,7 +89,7 @@ fn length3(a: vec3<f32>) -> f32 {
     return sqrt(dot3(a, a));
 }
 
-// `value`, limited to 0 to 1.
+// `value`, limited to the range from 0 to 1.
 fn share(value: f32) -> f32 {
     return min(max(value, 0.0), 1.0);
 }
@@ -201,7 +201,7 @@ fn nearest_image(one: vec3<f32>, other: vec3<f32>, way: vec3<i32>) -> vec2<i32> 
     return -vec2<i32>(floor(apart.xy * frequency + 0.5));
 }
 
-// `way`, led on by `image` repeats: the way to that image.
+// The way to an image: `way`, moved by `image` repeats.
 fn to_image(way: vec3<i32>, image: vec2<i32>) -> vec3<i32> {
     return vec3(way.x + image.x * settling.period_x, way.y + image.y * settling.period_y, way.z);
 }

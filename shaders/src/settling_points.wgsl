@@ -38,7 +38,7 @@ struct BoundsRow {
 @group(0) @binding(33) var<storage, read_write> bounds: array<BoundsRow>;
 
 // The position of a place, mm: origin + units * unit, rounded once. Units are split into two parts
-// that floats hold exactly. What the first sum loses is added to the other part.
+// that floats hold exactly. The rounding error of the first sum is added to the other part.
 fn position(place: u32) -> vec3<f32> {
     let units = places[place].xyz;
     let high = vec3<f32>(units >> vec3(12u)) * (f32(4096) * settled.unit);

@@ -6,10 +6,10 @@
 //
 // Lanes write planes, each with one number for each place. The planes of the four slots come first.
 // A slot of the weighted form has eight planes: the ways (x, y, z) and the weight of contacts, then
-// those of bends. A slot of the block form has nine planes: the sum of all ways, and the squares of
-// their directions (xx, xy, xz, yy, yz, zz). Then come half of the surplus length (x, y, z), the
-// length, the least distance to another yarn, mm, and the least distance divided by the sum of both
-// reaches.
+// the ways and the weight of bends. A slot of the block form has nine planes: the sum of all ways,
+// and the squares of their directions (xx, xy, xz, yy, yz, zz). Then come half of the surplus
+// length (x, y, z), the length, the least distance to another yarn, mm, and the least distance
+// divided by the sum of both reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;

@@ -15,9 +15,9 @@
 const WEIGHTED_SLOT = 8u;
 const BLOCK_SLOT = 9u;
 
-// Four intervals pull at a point. They begin one place behind it, at it, one place before it, and
-// two places before it, and the point has slots 0 to 3 in them. NOWHERE stands for an interval that
-// the yarn does not have.
+// Four intervals pull at a point. They begin at the next place, at the point's own place, at the
+// place before it, and two places before it. In these four intervals the point has slots 0, 1, 2
+// and 3. NOWHERE stands for an interval that the yarn does not have.
 const NOWHERE = 0xffffffffu;
 
 fn interval_place(strand: StrandRow, number: i32) -> u32 {

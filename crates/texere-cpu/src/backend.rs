@@ -59,9 +59,9 @@ impl SerialBackend {
 }
 
 impl ParallelBackend {
-    /// Opens the parallel backend, which works on rayon's global pool, with the vectors that the
-    /// environment variable `TEXERE_SIMD` names (`portable`, `avx2` or `avx512`) or, without it,
-    /// the widest ones that the processor has.
+    /// Opens the parallel backend, which works on rayon's global pool. The environment variable
+    /// `TEXERE_SIMD` (`portable`, `avx2` or `avx512`) names the vector instructions that it uses.
+    /// If the variable is not set, it uses the widest vectors that the processor has.
     ///
     /// ```
     /// use texere_core::Backend;
@@ -70,15 +70,15 @@ impl ParallelBackend {
     /// # Ok::<(), texere_core::BackendError>(())
     /// ```
     ///
-    /// **Errors**: [`BackendError::NoInstructionSet`] if `TEXERE_SIMD` names no vectors of this
-    /// processor.
+    /// **Errors**: [`BackendError::NoInstructionSet`] if `TEXERE_SIMD` is set, but names no vector
+    /// instructions that this processor has.
     pub fn open() -> Result<Self, BackendError> {
         Ok(Self::with("cpu", Parallel::new()?))
     }
 
     /// Opens the backend once for each kind of vectors that the processor has, the widest last,
-    /// whatever `TEXERE_SIMD` says. Tests check with it that all kinds give the same bits. The
-    /// names say the kind: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
+    /// whatever `TEXERE_SIMD` says. Tests use it to check that all kinds give the same bits. The
+    /// name of each backend says its kind: `cpu/portable`, `cpu/avx2`, `cpu/avx512`.
     ///
     /// ```
     /// use texere_core::Backend;

@@ -1,5 +1,6 @@
-//! A grid of cells that chords are sorted into. Only chords in the same cell or in cells beside one
-//! another may be neighbours. Cells are beside one another if they share an edge or a corner.
+//! A grid of cells that chords are sorted into. A chord is a straight piece of a control interval.
+//! Only chords in the same cell or in cells beside one another may be neighbours. Cells are beside
+//! one another if they share an edge or a corner.
 
 use std::ops::Range;
 
@@ -18,9 +19,9 @@ pub(crate) fn owners(plan: &SettlingPlan) -> Vec<u32> {
 /// The extent of some chords: what a grid of cells is made from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extent {
-    /// The least coordinates of the chords' middles, units.
+    /// The least coordinates of the chords' middles, in units of the plan's scale.
     pub(crate) low: IVec3,
-    /// The greatest coordinates of the chords' middles, units.
+    /// The greatest coordinates of the chords' middles, in units of the plan's scale.
     pub(crate) high: IVec3,
     /// The longest chord, mm.
     pub(crate) longest: f32,
@@ -49,9 +50,10 @@ impl Extent {
 /// own cell or in one beside it.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    /// The x and y at which the grid begins, units; 0 along an axis that repeats.
+    /// The x and y at which the grid begins, in units of the plan's scale; 0 along an axis that
+    /// repeats.
     low: [f64; 2],
-    /// One over the grid's width and height in units.
+    /// One over the grid's width and height in units of the plan's scale.
     inverse: [f64; 2],
     /// The number of columns, and the number of rows.
     count: [u32; 2],
@@ -59,9 +61,9 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// A grid whose cells are as large as `growth` requires, or larger. It has no more cells than
-    /// there are chords, or than 64 if there are fewer chords, because a cloth may lie scattered
-    /// over a large field.
+    /// A grid whose cells are as large as `growth` requires, or larger. The grid has no more cells
+    /// than there are chords, but up to 64 cells if there are fewer than 64 chords. The limit
+    /// matters for yarns that lie scattered over a large field.
     pub(crate) fn new(plan: &SettlingPlan, growth: f32, extent: &Extent) -> Self {
         let most = (plan.counts().chords as i64).max(64);
         let mut size =
@@ -71,7 +73,7 @@ impl Grid {
             let open = i64::from(extent.high[axis]) - i64::from(extent.low[axis]) + 1;
             if repeats[axis] { i64::from(plan.period()[axis]) } else { open.max(1) }
         });
-        // The most columns and rows of which each is at least `size` wide.
+        // The greatest numbers of columns and rows that leave each at least `size` units wide.
         let mut count = spans.map(|span| (span / size).max(1));
         while count[0] * count[1] > most {
             size *= 2;

@@ -43,8 +43,9 @@ pub(crate) trait Executor: Copy + Debug + Send + 'static {
     ) -> Result<(), BackendError>;
     fn trajectory(self, work: &Work, chunk: &Chunk, out: &mut [Ring]);
     /// Makes the mesh of `chunk`. `rings` are the chunk's rings; they have no meaning if the
-    /// executor is [`FUSED`](Self::FUSED). `out` is a part of `bytes` of memory, which are filled
-    /// before any of them is read.
+    /// executor is [`FUSED`](Self::FUSED). `out` is a part of an output of `bytes` bytes. All of
+    /// that output is filled before any of it is read, so its size says whether the caches can hold
+    /// it.
     fn mesh(self, work: &Work, chunk: &Chunk, rings: &[Ring], out: MeshMut<'_>, bytes: u64);
     /// Makes the packed vertices of `chunk`. `rings` are the chunk's rings; they have no meaning if
     /// the executor is [`FUSED`](Self::FUSED).
@@ -88,7 +89,7 @@ impl<E: Executor> CpuEngine<E> {
 }
 
 /// Makes `buffer` `length` values long. If its memory is too small, new memory full of zeros takes
-/// its place. Otherwise its values stay, and zeros are added.
+/// its place. Otherwise its first values stay, and zeros are added if it was shorter.
 pub(crate) fn resize<T: bytemuck::Zeroable>(
     what: &'static str,
     buffer: &mut Vec<T>,
@@ -105,7 +106,7 @@ pub(crate) fn resize<T: bytemuck::Zeroable>(
 /// core.
 const SCAN_RINGS: u64 = 1 << 17;
 
-/// `yarns`, cut after each [`SCAN_RINGS`] rings or so. A yarn is not cut.
+/// `yarns` in batches of about [`SCAN_RINGS`] rings. Each yarn lies in one batch.
 fn batches(plan: &Plan, yarns: Range<usize>) -> impl Iterator<Item = Range<usize>> {
     let (offsets, mut first) = (plan.ring_offsets(), yarns.start);
     std::iter::from_fn(move || {
@@ -244,7 +245,8 @@ impl<E: Executor> Engine for CpuEngine<E> {
 
     fn mesh_into(&mut self, slot: Slot, chunk: &Chunk, out: MeshMut<'_>) -> Result<(), BackendError> {
         let rings = &self.memory[slot.index()].rings;
-        // The caller keeps the whole mesh in memory. Its size says whether the caches can hold it.
+        // The caller keeps the whole mesh in memory, so the size of the whole mesh says whether the
+        // caches can hold it.
         let bytes = self.work.plan.counts().bytes().max(out.bytes());
         timed(&mut self.timings.mesh, || self.executor.mesh(&self.work, chunk, rings, out, bytes));
         Ok(())

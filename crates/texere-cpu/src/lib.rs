@@ -1,9 +1,10 @@
 //! The CPU backends of texere.
 //!
-//! [`SerialBackend`] is the paper's algorithms 1 and 3, written to be read: the gold reference that
-//! every other backend is held against. [`ParallelBackend`] spreads short ranges of rings over all
-//! cores, inside a yarn as well as across yarns, and gives the same bits. A [`Picker`] says which
-//! triangle of the mesh a ray hits first.
+//! [`SerialBackend`] is a plain form of algorithms 1 and 3 of the paper "GPU-based yarn-level
+//! parallel computing framework". Every other backend is compared with it. [`ParallelBackend`]
+//! spreads short ranges of rings over all cores, inside a yarn as well as across yarns. It gives
+//! the same bits as the serial backend. A [`Picker`] says which triangle of the mesh a ray hits
+//! first.
 //!
 //! ```
 //! use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};

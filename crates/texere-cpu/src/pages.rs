@@ -11,7 +11,8 @@
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_huge<T: bytemuck::Pod>(memory: &[T]) {
     use rustix::mm::{Advice, madvise};
-    /// The largest ordinary page of any Linux system, bytes. Every ordinary page's size divides it.
+    /// The largest ordinary page of the Linux systems for x86-64 and arm64, bytes. The sizes of all
+    /// their ordinary pages divide it.
     const PAGE: usize = 64 << 10;
     let bytes = size_of_val(memory);
     if bytes < PAGE {

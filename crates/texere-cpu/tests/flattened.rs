@@ -30,8 +30,8 @@ enum Sizes {
     Changing,
     /// Round for a while, then flattened, and so on, so that vectors hold both kinds of rings.
     HereAndThere,
-    /// From the least allowed size to the greatest, so that the spline dips below zero and virtual
-    /// ends are negative.
+    /// From the least allowed size to the greatest, so that the spline of the sizes dips below
+    /// zero, and sizes at virtual ends are negative.
     Wild,
 }
 
@@ -79,7 +79,7 @@ fn sections() -> Vec<Section> {
     ]
 }
 
-/// Thirty yarns, and a polygon with negative zeros among its corners if `corners` are asked for.
+/// Thirty yarns. With `corners` their section is a polygon with negative zeros among its corners.
 fn yarns(dice: &mut Dice, corners: bool) -> Yarns {
     let mut yarns = Yarns::builder();
     let sections: Vec<_> = if corners {

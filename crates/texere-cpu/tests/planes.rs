@@ -41,8 +41,8 @@ fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
 #[test]
 fn the_last_ring_of_a_closed_yarn_stands_still_where_what_follows_is_far_away() {
     // From ring 64, where a block starts, the yarn goes on along y to the last ring, which is ring
-    // 0 again. But the point after the next one is very far away. By the measure of that distance
-    // the velocity of the first ring, and of the last, counts as zero.
+    // 0 again. But the point after the next one is very far away. Compared with that distance, the
+    // velocity at the first ring and at the last ring counts as zero.
     let mut points: Vec<_> = (0..80).map(|k| [0.0, 0.001 * (k as f32 - 80.0), 0.0]).collect();
     (points[0], points[1], points[2]) = ([0.0; 3], [0.0, 0.001, 0.0], [2000.0, 0.0, 2000.0]);
     for (k, point) in points.iter_mut().enumerate().take(63).skip(3) {

@@ -169,7 +169,7 @@ pub fn crossings_batches(
     Ok(ControlFlow::Continue(()))
 }
 
-/// A bit for each crossing of `plan`, from the lowest bit on, which is 1 if the warp lies on the
+/// A bit for each crossing of `plan`, from the lowest bit on. The bit is 1 if the warp lies on the
 /// face.
 #[must_use]
 pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
@@ -182,10 +182,10 @@ pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
     ups
 }
 
-/// Lower bound on the bytes of device memory that a pass of `plan` moves. For each crossing, the
-/// state that other crossings read is read, its own state is read and written, and the state for
-/// the next pass is written. A bit says which thread lies on top. What neighbours read again is not
-/// counted.
+/// Lower bound on the bytes of device memory that a pass of `plan` moves. For each crossing, a pass
+/// reads the state with momentum, reads and writes the state without momentum, and writes the state
+/// with momentum for the next pass. It also reads the bit that says which thread lies on top. A
+/// crossing also reads the states of its neighbours, which are not counted again.
 #[must_use]
 pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
     let crossings = plan.crossings() as u64;

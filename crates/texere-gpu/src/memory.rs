@@ -8,10 +8,10 @@ use crate::tables::{CapRow, YarnRow, cap_pattern, lean_count};
 use crate::upload::Ends;
 
 /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the meshes of
-/// all chunks of `plan`. Each comes as what it holds, and its bytes. The buffers of the two chunks
-/// in flight come last. `limits` are those that chunks are cut to, by the caller and in a
-/// [scan](texere_core::backend::Session::with_limits). If a scan cuts larger chunks than the
-/// caller, tables are as large as the scan needs them.
+/// all chunks of `plan`. Each entry names what a buffer holds, and gives the buffer's bytes. The
+/// buffers of the two chunks in flight come last. `limits` are the limits that chunks are cut to,
+/// both by the caller and in a [scan](texere_core::backend::Session::with_limits). If the chunks of
+/// the scan are larger than the caller's, tables are as large as the scan needs them.
 ///
 /// These are not counted:
 /// - the rounding up of each buffer to what kernels read at a time,
@@ -50,7 +50,7 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
         ("the cap pattern", bytes(caps, size_of::<u32>())),
         ("rolls", turns * size_of::<Turn>() as u64),
     ];
-    // Chunks are loaded into the two slots by turns, and a slot's memory grows to that of the
+    // Chunks are loaded into the two slots alternately, and a slot's memory grows to that of the
     // largest chunk in it. A scan goes through the chunks first, for their tables alone. If a scan
     // has more than two chunks, it changes which chunk is loaded into which slot.
     let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
@@ -79,8 +79,8 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
 }
 
 /// The peak bytes of host memory that [`Pipeline::mesh`](texere_core::Pipeline::mesh) needs with a
-/// GPU: those of the mesh, the block table, and the ends of all yarns. Control points and rolls are
-/// kept on the GPU. [`Plan::host_bytes`] gives the bytes for a CPU.
+/// GPU: the bytes of the mesh, of the block table, and of the ends of all yarns. Control points and
+/// rolls are kept on the GPU. [`Plan::host_bytes`] gives the bytes for a CPU.
 #[must_use]
 pub fn host_bytes_beside_gpu(plan: &Plan) -> u64 {
     let blocks = plan.block_count() * size_of::<Block>() as u64;

@@ -170,8 +170,8 @@ pub struct SeenRow {
     pub clearance: f32,
     /// The least radius of curvature, in diameters of the yarn. It is 1e30 if no yarn bends.
     pub radius: f32,
-    /// The largest difference of an interval's length from the length asked for, as a share of the
-    /// latter.
+    /// The largest difference of an interval's length from the length that it should have, as a
+    /// share of the latter.
     pub length: f32,
     /// The longest step of a point, mm.
     pub step: f32,
@@ -283,7 +283,8 @@ impl SettlingParams {
 
     /// These parameters with the cells that chords are sorted into at `growth`. `rows` give the
     /// extent of all chords. Cells are so large that a chord's neighbours lie in its own cell or in
-    /// one beside it. There are no more cells than chords, or than 64 if there are fewer chords.
+    /// one beside it. There are no more cells than chords, but up to 64 cells if there are fewer
+    /// than 64 chords.
     #[must_use]
     pub fn with_cells(self, plan: &SettlingPlan, growth: f32, rows: &[ExtentRow]) -> Self {
         let fold = |of: fn(&ExtentRow) -> i32, better: fn(i32, i32) -> i32| {

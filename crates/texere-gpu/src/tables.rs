@@ -77,8 +77,8 @@ pub struct Params {
     pub sides: u32,
     /// Number of points inserted between two control points.
     pub subdivisions: u32,
-    /// Index of the first ring's lean. Leans lie behind the rolls of blocks. It is 0 if no yarn
-    /// leans.
+    /// Index of the first ring's lean, counted from the roll of the first block. Leans lie behind
+    /// the rolls of blocks. The index is 0 if no yarn leans.
     pub leans: u32,
     /// 1 if indices are written, otherwise 0.
     pub indexed: u32,
@@ -201,8 +201,9 @@ pub fn lean_count(plan: &Plan) -> u64 {
 }
 
 /// The block table of `chunk`, a chunk of `plan`, for a schedule in which a lane makes a whole
-/// part. A part is one row, or several if it has more than `most_rings` rings. A row is any number
-/// of consecutive rings of a yarn, from any ring on.
+/// part. A part is all consecutive blocks of one yarn in the chunk. It is one row, or several if it
+/// has more than `most_rings` rings. A row is any number of consecutive rings of a yarn, from any
+/// ring on.
 #[must_use]
 pub fn part_rows(plan: &Plan, chunk: &Chunk, most_rings: u32) -> Vec<Block> {
     joined_rows(plan, chunk.blocks(), most_rings)

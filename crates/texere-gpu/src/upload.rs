@@ -1,5 +1,5 @@
 //! Uploads of control points to padded memory elsewhere, such as a GPU's. Nothing is copied on the
-//! host. Instead, what is to be written is lent run by run.
+//! host. Instead, the caller is lent slices of the points that it has to write, run by run.
 
 use std::ops::Range;
 use std::sync::LazyLock;

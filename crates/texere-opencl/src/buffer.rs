@@ -36,10 +36,10 @@ impl Buffer {
         let memory = unsafe { create_buffer(opened.context.raw(), CL_MEM_READ_WRITE, size, ptr::null_mut()) };
         let memory = Handle::memory(memory).map_err(refused("clCreateBuffer"))?;
         let mut buffer = Self { memory: Some(memory), bytes };
-        // Some drivers allocate only at the first use. This write makes them report now that there
-        // is no memory. clEnqueueMigrateMemObjects was tried for this, but NVIDIA's driver (580)
-        // crashes if two threads call it on one queue.
-        // SAFETY: the write is blocking, so the word is borrowed until it is copied.
+        // Some drivers allocate only at the first use. With this write they report a lack of memory
+        // now. clEnqueueMigrateMemObjects was tried for this, but NVIDIA's driver (580) crashes if
+        // two threads call it on one queue. SAFETY: the write is blocking, so the word is borrowed
+        // until it is copied.
         let claimed = unsafe { buffer.enqueue_write(&opened.transfers, CL_BLOCKING, 0, &[0u32], None) };
         claimed.map_err(refused("clEnqueueWriteBuffer"))?;
         Ok(buffer)

@@ -11,8 +11,8 @@ use crate::buffer::Buffer;
 use crate::handles::Handle;
 use crate::opened::Opened;
 
-/// The memory of one chunk at a time. A session has two, and uses this memory again for the next
-/// chunk but one. A live mesh has one for each of its chunks.
+/// The memory of one chunk at a time. A session has two of them, which its chunks use alternately.
+/// A live mesh has one for each of its chunks.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,
@@ -61,7 +61,7 @@ impl ChunkMemory {
                 table.write(opened, &opened.transfers, 0, rows, used.as_deref())?,
                 caps.write(opened, &opened.transfers, 0, &cap_rows, used.as_deref())?,
             ];
-            // The two commands end in order, so the last stands for both.
+            // The two commands end in order, so it is enough to wait for the last.
             *ready = sent.into_iter().flatten().last();
             Ok(rows.len())
         })?;

@@ -29,7 +29,7 @@ pub(crate) struct Clock {
     pending: Vec<(Stage, [Arc<Handle>; 2])>,
 }
 
-/// The number of groups that may be pending before those that have ended are added up.
+/// If at least this many groups are pending, the times of the groups that have ended are added up.
 const PENDING: usize = 64;
 
 impl Clock {

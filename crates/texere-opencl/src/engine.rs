@@ -124,7 +124,7 @@ impl OpenClEngine {
         self.tables.bytes() + lengths + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Changes to the kernels for all yarns if a yarn is flattened.
+    /// Replaces the kernels for round yarns by the kernels for all yarns if a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() && !self.flattened {
             self.kernels = kernels(&self.opened, &self.plan, true)?;

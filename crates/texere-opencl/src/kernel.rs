@@ -33,7 +33,7 @@ pub(crate) enum Arg<'a> {
 }
 
 /// The most workgroups of one launch: 16 million rings, a few milliseconds on a GPU. Launches of
-/// this size end before a watchdog stops them.
+/// this size end before a driver's watchdog stops them.
 pub(crate) const LAUNCH_GROUPS: usize = 1 << 18;
 
 impl Kernel {

@@ -14,8 +14,9 @@ use crate::handles::Handle;
 use crate::opened::Opened;
 use crate::pinned::Pinned;
 
-/// The bytes of a piece that a sink is lent. A piece holds whole vertices (24 bytes) and rings (48
-/// bytes), and is so large that the start of a transfer takes a negligible part of its time.
+/// The bytes of a piece, which a sink is lent at a time. A piece holds whole vertices (24 bytes) or
+/// whole rings (48 bytes). It is so large that the start of a transfer takes a negligible part of
+/// the transfer's time.
 const PIECE_BYTES: usize = (16 << 20) / 96 * 96;
 
 /// Two pieces of pinned memory. While the sink reads one, the other is filled.

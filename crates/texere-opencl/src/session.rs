@@ -10,8 +10,8 @@ use crate::engine::OpenClEngine;
 
 /// A [`Session`] that lends a chunk's mesh in device memory.
 ///
-/// All control points stay on the device. A chunk's results stay until a stage is run for the next
-/// chunk but one.
+/// All control points stay on the device. A chunk's results stay until a stage is run for the
+/// second chunk after it.
 ///
 /// ```no_run
 /// use std::sync::Arc;

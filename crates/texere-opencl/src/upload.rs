@@ -23,9 +23,9 @@ const POINT_BYTES: u64 = size_of::<ControlPoint>() as u64;
 /// driver's own transfer is as fast.
 const FEW_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// The most points that are sent without pinned memory the first time that more than [`FEW_POINTS`]
-/// are sent. Allocating pinned memory would take more time than it saves, and it may never be used
-/// again.
+/// The most points that are sent without pinned memory as long as no earlier upload had more than
+/// [`FEW_POINTS`]. Allocating pinned memory takes more time than it saves in one such upload, and
+/// there may be no other.
 const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 
 /// The number of points of a piece. A piece is so large that the overhead of a transfer is
@@ -207,10 +207,10 @@ impl Flight<'_> {
             let start = slot.add((first - piece.range.start) as usize);
             std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
         };
-        // The last pieces are written past the caches. If cores go to sleep after these pieces,
-        // reads of what their caches hold are slow: the device took up to four times as long. If
-        // all pieces were written past the caches, they would slow down the device's own reads of
-        // memory.
+        // The last pieces are written past the caches. Cores may go to sleep after these pieces,
+        // and the device then reads data slowly that still lies in their caches: it took up to four
+        // times as long. If all pieces were written past the caches, they would slow down the
+        // device's own reads of memory.
         pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
         if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {
             let count = (piece.range.end - piece.range.start) as usize;

@@ -13,8 +13,8 @@ use crate::buffer::Buffer;
 use crate::gpu::Gpu;
 use crate::tables::Tables;
 
-/// The memory of one chunk at a time. A session has two, and uses this memory again for the next
-/// chunk but one. A live mesh has one for each of its chunks.
+/// The memory of one chunk at a time. A session has two of them, which its chunks use alternately.
+/// A live mesh has one for each of its chunks.
 #[derive(Debug)]
 pub(crate) struct ChunkMemory {
     pub(crate) loaded: LoadedChunk,

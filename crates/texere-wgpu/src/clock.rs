@@ -10,8 +10,9 @@ use wgpu::{BufferUsages, ComputePassTimestampWrites, Features, MapMode, Submissi
 use crate::gpu::{Gpu, WAIT_LIMIT};
 
 /// Whether the clock of a device with `features` can be read. If not, the host times a launch from
-/// its submission to the moment when the host notices its end. If the launch before ends after that
-/// submission, the time begins at that end. Uploads and readbacks are always timed by the host.
+/// its submission to the moment when the host notices its end. If the previous launch ends only
+/// after the submission, the time begins when the host notices the end of the previous launch.
+/// Uploads and readbacks are always timed by the host.
 pub(crate) fn has_clock(features: Features) -> bool {
     features.contains(Features::TIMESTAMP_QUERY)
 }

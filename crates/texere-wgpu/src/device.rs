@@ -8,7 +8,7 @@ use texere_gpu::capabilities;
 use wgpu::{Backends, DeviceType, DownlevelFlags, Features, InstanceDescriptor, InstanceFlags};
 
 /// The default limit of the blocks of a launch: some 16 million rings. Launches of this size end
-/// before a watchdog stops them, even on a software device.
+/// before a driver's watchdog stops them, even on a software device.
 pub const LAUNCH_BLOCKS: u64 = 1 << 18;
 
 /// Features with which a picture finds the depth and the triangle of a sample at once. Without them

@@ -30,10 +30,10 @@ pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferL
     attributes: &wgpu::vertex_attr_array![0 => Uint32x2, 1 => Snorm16x2],
 };
 
-/// Draws a whole live mesh in `pass`, with the pipeline that the caller has set. Vertices are
-/// vertex buffer 0 ([`VERTEX_LAYOUT`]), and attributes, if the mesh
-/// [keeps](LiveMesh::keep_attributes) any, vertex buffer 1 ([`ATTRIBUTE_LAYOUT`]). Yarns are drawn
-/// one after the other, with the draws of [`texere_core::backend::Plan::chunk_draws`].
+/// Draws a whole live mesh in `pass`, with the pipeline that the caller has set. Vertex buffer 0
+/// has the vertices ([`VERTEX_LAYOUT`]). Vertex buffer 1 has the attributes ([`ATTRIBUTE_LAYOUT`]),
+/// if the mesh [keeps](LiveMesh::keep_attributes) any. Yarns are drawn one after the other, with
+/// the draws of [`texere_core::backend::Plan::chunk_draws`].
 ///
 /// Returns none and draws nothing if the mesh is not on a wgpu device, was never
 /// [updated](LiveMesh::update), or has a topology other than [`Topology::Indexed`].

@@ -122,34 +122,35 @@ impl WgpuEngine {
         &self.opened.gpu.device
     }
 
-    /// The vertices of the chunk in `slot`: [`Chunk::vertices`] of 24 bytes, position and normal,
-    /// from the start of the buffer, which may be longer. None if no chunk was loaded into the slot
-    /// yet. Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// The vertices of the chunk in `slot`: position and normal, 24 bytes each, from the start of
+    /// the buffer. There are [`Chunk::vertices`] of them, and the buffer may be longer. None if no
+    /// chunk was loaded into the slot yet. The buffer's usages are `VERTEX`, `STORAGE` and
+    /// `COPY_SRC`.
     #[must_use]
     pub fn vertex_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.vertices.buffer())
     }
 
-    /// The indices of the chunk in `slot`: [`Chunk::indices`] of four bytes, from the start of the
-    /// buffer, which may be longer. None if no chunk was loaded into the slot yet. A topology other
-    /// than [`Indexed`](texere_core::Topology::Indexed) has none. Its usages are `INDEX`, `STORAGE`
-    /// and `COPY_SRC`.
+    /// The indices of the chunk in `slot`: four bytes each, from the start of the buffer. There are
+    /// [`Chunk::indices`] of them, and the buffer may be longer. None if no chunk was loaded into
+    /// the slot yet. A topology other than [`Indexed`](texere_core::Topology::Indexed) has no
+    /// indices. The buffer's usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn index_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.indices.buffer())
     }
 
     /// The attributes of the chunk in `slot`: one of 24 bytes for each vertex, from the start of
-    /// the buffer, which may be longer. None if no chunk was loaded into the slot yet. Its usages
-    /// are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// the buffer, which may be longer. None if no chunk was loaded into the slot yet. The buffer's
+    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn attribute_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.attributes.buffer())
     }
 
     /// The packed vertices of the chunk in `slot`: one of 12 bytes for each vertex, from the start
-    /// of the buffer, which may be longer. None if no chunk was loaded into the slot yet. Its
-    /// usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
+    /// of the buffer, which may be longer. None if no chunk was loaded into the slot yet. The
+    /// buffer's usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn packed_buffer(&self, slot: Slot) -> Option<&wgpu::Buffer> {
         Some(self.memory.get(slot.index())?.packed.buffer())
@@ -160,7 +161,7 @@ impl WgpuEngine {
         self.tables.bytes() + self.memory.iter().map(ChunkMemory::bytes).sum::<u64>()
     }
 
-    /// Changes to the kernels for all yarns if a yarn is flattened.
+    /// Replaces the kernels for round yarns by the kernels for all yarns if a yarn is flattened.
     fn choose_kernels(&mut self) -> Result<(), BackendError> {
         if self.ends.flattened() {
             self.kernels = self.opened.flattened()?;
@@ -211,7 +212,7 @@ impl WgpuEngine {
             }
             self.check_loaded(slot, &chunk)?;
             // The row of a repeated ring has no steps, so 0 is written for a block. That block is
-            // the next chunk's first, which overwrites the 0 later.
+            // the next chunk's first block, and the next chunk overwrites the 0 later.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }

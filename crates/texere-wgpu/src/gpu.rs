@@ -12,11 +12,11 @@ use wgpu::{BufferUsages, ErrorFilter, PollError, PollType, SubmissionIndex};
 /// a GPU and seconds on a software device. A chunk that takes two minutes is considered to hang.
 pub(crate) const WAIT_LIMIT: Duration = Duration::from_secs(120);
 
-/// The time after which a wait that a caller may end asks the caller whether to go on.
+/// The time between two questions to the caller whether a wait should go on.
 const ASKED: Duration = Duration::from_millis(10);
 
-/// The shortest sleep of a wait that may be ended. Later sleeps are an eighth of the time waited,
-/// so that a wait is at most an eighth too long.
+/// The shortest sleep of a wait that the caller may end. Later sleeps are an eighth of the time
+/// waited, so that a wait is at most an eighth too long.
 const SLEEP_LEAST: Duration = Duration::from_micros(20);
 
 /// Every buffer's length is a multiple of this number of bytes, which is the size of the widest
@@ -89,8 +89,8 @@ impl Gpu {
         BackendError::DeviceLost { device: self.name.clone(), source: Some(source.into()) }
     }
 
-    /// Runs `work` within error scopes. Lack of memory is returned before the errors that followed
-    /// from it.
+    /// Runs `work` within error scopes. If memory was lacking, that error is returned, and not the
+    /// errors that followed from it.
     pub(crate) fn caught<T>(&self, work: impl FnOnce() -> T) -> Result<T, wgpu::Error> {
         let scopes = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory]
             .map(|filter| self.device.push_error_scope(filter));
@@ -169,8 +169,9 @@ impl Gpu {
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<bool, BackendError> {
         let (start, mut asked) = (Instant::now(), Duration::ZERO);
-        // The driver is only asked, and this thread sleeps in between. Asked to wait for ten
-        // milliseconds at most, lavapipe (Mesa 22.3) now and then reported a lost device.
+        // The driver is only asked whether the submission is done, and this thread sleeps in
+        // between. When lavapipe (Mesa 22.3) was asked to wait for up to ten milliseconds, it now
+        // and then reported a lost device.
         while !self.waits(submission.clone(), Duration::ZERO)? {
             let waited = start.elapsed();
             if waited > WAIT_LIMIT {

@@ -1,5 +1,4 @@
-//! The schedule per-yarn, the paper's, in which a lane makes a yarn, or as much of one as a device
-//! allows.
+//! The paper's schedule, per-yarn. A lane makes a yarn, or as much of a yarn as a device allows.
 
 use texere_core::BackendError;
 use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
@@ -7,8 +6,8 @@ use texere_shaders::{MESH_PER_YARN, TRAJECTORY_PER_YARN};
 use crate::gpu::Gpu;
 use crate::kernel::Kernel;
 
-/// The most rounds of all loops of a lane on a software device. llvmpipe ends longer loops
-/// silently.
+/// The most rounds that all loops of a lane together may make on a software device. llvmpipe ends
+/// longer loops silently.
 const SOFTWARE_ROUNDS: u32 = 65_535;
 
 /// The compiled shaders of the schedule.
@@ -34,8 +33,8 @@ impl PerYarn {
 /// same on devices that let a lane run for so long.
 pub(crate) fn lane_rings(gpu: &Gpu, sides: u32) -> u32 {
     match gpu.device.adapter_info().device_type {
-        // For each ring the loops of `mesh_per_yarn` make a round for each vertex, three for the
-        // vertex's components and six for its indices, and one more to leave each loop.
+        // For each vertex of a ring, the loops of `mesh_per_yarn` make one round for the vertex,
+        // three for its components and six for its indices. Each loop also makes one round to end.
         wgpu::DeviceType::Cpu => SOFTWARE_ROUNDS / (12 * (sides + 1)),
         _ => u32::MAX,
     }

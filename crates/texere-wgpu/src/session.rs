@@ -31,9 +31,9 @@ use crate::engine::WgpuEngine;
 pub struct WgpuSession(pub(crate) Session<WgpuEngine>);
 
 impl WgpuSession {
-    /// The vertices of `chunk`, after [`Session::mesh`]: [`Chunk::vertices`] of 24 bytes, position
-    /// and normal, from the start of the buffer. The buffer may be longer, and is used again for
-    /// the next chunk but one.
+    /// The vertices of `chunk`, after [`Session::mesh`]: position and normal, 24 bytes each, from
+    /// the start of the buffer. There are [`Chunk::vertices`] of them. The buffer may be longer,
+    /// and is used again for the second chunk after this one.
     ///
     /// Its usages are `VERTEX`, `STORAGE` and `COPY_SRC`.
     ///
@@ -43,9 +43,10 @@ impl WgpuSession {
         Ok(self.0.engine().memory(slot).vertices.buffer())
     }
 
-    /// The indices of `chunk`, after [`Session::mesh`]: [`Chunk::indices`] of four bytes, from the
-    /// start of the buffer. The buffer may be longer, and is used again for the next chunk but one.
-    /// A topology other than [`Indexed`](texere_core::Topology::Indexed) has none.
+    /// The indices of `chunk`, after [`Session::mesh`]: four bytes each, from the start of the
+    /// buffer. There are [`Chunk::indices`] of them. The buffer may be longer, and is used again
+    /// for the second chunk after this one. A topology other than
+    /// [`Indexed`](texere_core::Topology::Indexed) has no indices.
     ///
     /// Its usages are `INDEX`, `STORAGE` and `COPY_SRC`.
     ///

@@ -79,8 +79,8 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
 }
 
 // The sizes of quads, a bit for each. A quad is NONE if no pixel lies in its box, SMALL if at most
-// two by two pixels do, FEW if the box has at most about ALONE samples, and else MANY. A quad with
-// a corner beyond REACHED is MANY.
+// two by two pixels do, FEW if the box has at most about ALONE samples, and otherwise MANY. A quad
+// with a corner beyond REACHED is MANY.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;

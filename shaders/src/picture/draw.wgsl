@@ -43,7 +43,7 @@ fn turned(p: Corner, q: Corner, r: Corner) -> Turned {
     return Turned(p, q, r, is_seen(area));
 }
 
-// 0 for a top or left edge, to which the samples on it belong, else -1.
+// 0 for a top or left edge, because samples on such an edge belong to the triangle, otherwise -1.
 fn edge_bias(edge: vec2<i32>) -> i32 {
     return select(-1, 0, edge.y < 0 || (edge.y == 0 && edge.x > 0));
 }
@@ -116,8 +116,8 @@ fn draw_small(quad: Quad, samples: u32, triangle: u32) {
     }
 }
 
-// An edge of a triangle as x, y and z of x * b - y * a + z, which is at least 0 for places (a, b),
-// from `origin` on, on its inner side.
+// An edge of a triangle, as a vector (x, y, z). For a place (a, b), counted from `origin`, the sum
+// x * b - y * a + z is at least 0 if the place lies on the inner side of the edge.
 fn edge_of(start: vec2<i32>, end: vec2<i32>, origin: vec2<i32>) -> vec3<i32> {
     let edge = end - start;
     return vec3(edge, edge_bias(edge) - cross_of(edge, start - origin));
@@ -156,7 +156,7 @@ fn draw_few(quad: Quad, triangle: u32) {
                     let corner = vec2(x, y) * 256 - middle() - origin;
                     let own = samples_in(vec2(x, y));
                     let places = Four(own.x + corner.x, own.y + corner.y);
-                    // Each is negative if either of its two sums is.
+                    // A number is negative here if either of the two sums in it is negative.
                     let in_first = sums_at(pr, places) | sums_at(qp, places);
                     let in_second = sums_at(sq, places) | sums_at(rs, places);
                     let inside = select(in_second, in_first, sums_at(diagonal, places) >= vec4(0)) >= vec4(0);

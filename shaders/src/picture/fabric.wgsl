@@ -19,9 +19,10 @@ struct Sweep {
     hair_reach: f32,
 }
 
-// Three lists of row numbers. First come the blocks that the view may show, from params.blocks on
-// the blocks with FEW quads, and from twice params.blocks on the blocks with MANY quads. The second
-// and third lists are for later passes.
+// Three lists of row numbers. The first list has the blocks that the view may show. The second
+// begins at params.blocks, and has the blocks with FEW quads (see cover.wgsl). The third begins at
+// twice params.blocks, and has the blocks with MANY quads. The second and third lists are for later
+// passes.
 struct Listed {
     count: atomic<u32>,
     few_count: atomic<u32>,

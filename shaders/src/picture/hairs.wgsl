@@ -65,7 +65,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
     let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
     for (var row = first_row; row <= end_row; row++) {
-        // The shares of the part between which it lies near the row.
+        // The shares of the part's length between which the part lies near the row.
         let down = f32(sample_place(0, row).y) - base.y;
         let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
         let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));

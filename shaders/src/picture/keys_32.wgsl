@@ -1,5 +1,6 @@
-// The nearest triangle in each sample, in two numbers of 32 bits, which take two rounds. This file
-// comes before cover.wgsl. In memory both numbers together equal the number of keys_64.wgsl.
+// The nearest triangle in each sample, in two numbers of 32 bits. Sweep 0 finds the nearness, and
+// sweep 1 the triangle. This file comes before cover.wgsl. In memory both numbers together equal
+// the number of keys_64.wgsl.
 
 struct Key {
     triangle: atomic<u32>,

@@ -1,5 +1,6 @@
 // The encoding of a lit sample: ten bits for the square root of each of red, green and blue, and
-// two bits for alpha. Square roots spread the bits roughly as an eye sees steps.
+// two bits for alpha. With square roots, the steps between encoded values look roughly equal to the
+// eye.
 
 fn lit_of(color: vec4<f32>) -> u32 {
     let steps = vec4<u32>(round(vec4(sqrt(clamp(color.rgb, vec3(0.0), vec3(1.0))), color.a) * vec4(vec3(1023.0), 3.0)));

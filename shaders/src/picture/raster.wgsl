@@ -88,9 +88,9 @@ fn quad_of(outline: u32, ring: u32, side: u32, beside: u32) -> Quad {
                 corner_of(tube_at(next, other)));
 }
 
-// Notes quads of some sides of a ring in `found`: if `size` is SMALL, those that are SMALL and have
-// samples, and else those that are FEW. The sizes of all others go into `other_sizes`. `here` are
-// the ring's axes.
+// Notes quads of some sides of a ring in `found`: the SMALL quads that have samples if `size` is
+// SMALL, otherwise the FEW quads. If `size` is SMALL, the sizes of all other quads go into
+// `other_sizes`. `here` are the ring's axes.
 fn note_alone(outline: u32, ring: u32, first_side: u32, end_side: u32, here: Axes, size: u32) {
     if first_side >= end_side {
         return;

@@ -14,7 +14,7 @@ struct YarnLook {
     grain: f32,
     // The share of light from within that is scattered evenly.
     diffuse: f32,
-    // The way from ring to ring, mm.
+    // The distance from ring to ring, mm.
     ring_length: f32,
 }
 
@@ -160,8 +160,8 @@ fn tone_mapped(light: vec3<f32>) -> vec3<f32> {
 // The mean visibility on yarns: of the light from all round, and of the key light.
 const AVERAGE = vec2(0.8, 0.85);
 
-// Both visibilities: means over the four by four pixels about, in which pixels count that lie in or
-// near the surface's plane.
+// Both visibilities: means over the four by four pixels round `pixel`. Pixels that lie far from the
+// surface's plane hardly count.
 fn visibility_of(here: Surface, pixel: vec2<i32>) -> vec2<f32> {
     if FAR {
         return select(vec2(1.0), AVERAGE, here.is_yarn);

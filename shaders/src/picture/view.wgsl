@@ -14,7 +14,7 @@ struct View {
     // The direction to the key light, and how far its shadows fall, mm.
     light: vec3<f32>,
     shadow: f32,
-    // The ground: n . p = w.
+    // The ground: the plane of all points p with n . p = w, where n is x, y and z of this vector.
     ground: vec4<f32>,
     // Size of the screen, the picture before it is scaled down, pixels.
     size: vec2<f32>,

@@ -357,8 +357,8 @@ impl Integers for U32x8 {
             let a = self.0;
             let a = _mm256_add_epi32(a, _mm256_slli_si256::<4>(a));
             let a = _mm256_add_epi32(a, _mm256_slli_si256::<8>(a));
-            // Each half has its own sums. Those of the second half still lack the last sum of the
-            // first.
+            // Each half has its own sums. The sums of the second half still lack the last sum of
+            // the first half.
             let first = _mm256_permute2x128_si256::<0x08>(a, a);
             _mm256_add_epi32(a, _mm256_shuffle_epi32::<0xff>(first))
         })

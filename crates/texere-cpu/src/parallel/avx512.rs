@@ -136,7 +136,7 @@ impl Simd for Avx512 {
         let (a, b) = (self.load(points), self.load(&points[16..]));
         let (c, d) = (self.load(&points[32..]), self.load(&points[48..]));
         // After `tiles` the components of points 0 to 3 are in lanes 0, 4, 8 and 12, and so on.
-        // `order` puts the points in turn. SAFETY: no pointers.
+        // `order` sorts the lanes by point. SAFETY: no pointers.
         let order =
             U32x16(unsafe { _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15) });
         let [x, y, z, w] = self.tiles([a, b, c, d]);

@@ -1,5 +1,7 @@
-//! Yarns whose outlines lean. They are rare, so the reference's function makes their rings, and the
-//! core's function their vertices. The blocks of a call are consecutive blocks of one yarn.
+//! Yarns whose outlines lean: their control points have up directions of their own. Such yarns are
+//! rare, so they are not made in lanes. The serial backend's function makes their rings, and the
+//! core's `Ring::vertex` makes their vertices. The blocks of a call are consecutive blocks of one
+//! yarn.
 
 use texere_core::Vertex;
 use texere_core::backend::{BLOCK_RINGS, Block};

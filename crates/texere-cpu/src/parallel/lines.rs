@@ -1,8 +1,8 @@
 //! Output in whole cache lines, which can go past the caches.
 //!
-//! A line that is written past the caches need not be read first. But the processor can have only
-//! few such lines on their way to memory at a time. Lines are therefore sent in small groups
-//! between other work, so that the processor need not wait for memory.
+//! If a whole line is written past the caches, the processor need not read it from memory first.
+//! But only few such lines can be on their way to memory at a time. Lines are therefore sent in
+//! small groups between other work, so that the processor need not wait for memory.
 
 use std::ops::Range;
 
@@ -33,10 +33,10 @@ impl<'a> Lines<'a> {
 /// Vertices on their way to the output.
 ///
 /// They are written to scratch memory, aligned there as they will be in the output. Whole lines are
-/// sent from it: half of them at once, the other half before the vertices of the next rings are
-/// written. The floats after the last whole line move to the front of a second scratch memory, and
-/// the two take turns. Each holds the vertices of one vector of rings, so both stay in the nearest
-/// cache.
+/// sent from there: half of them at once, the other half before the vertices of the next rings are
+/// written. The floats after the last whole line are copied to the front of a second scratch
+/// memory, which takes the next vertices. The two scratch memories take turns. Each holds the
+/// vertices of one vector of rings, so both stay in the nearest cache.
 #[derive(Debug)]
 pub(super) struct VertexLines<'a> {
     out: Lines<'a>,
@@ -122,8 +122,8 @@ impl<'a> VertexLines<'a> {
     }
 }
 
-/// The indices of the first [`INDEX_RINGS`] rings, which fill whole lines, and one line of those of
-/// the next ring.
+/// The indices of the first [`INDEX_RINGS`] rings, which fill whole lines, and one line more with
+/// indices of the next ring.
 #[derive(Debug)]
 pub(super) struct IndexTable {
     table: Vec<u32>,
@@ -132,7 +132,7 @@ pub(super) struct IndexTable {
 }
 
 /// The number of rings whose indices fill whole lines, whatever the number of sides: a ring has six
-/// indices a side, and eight times six are three lines.
+/// indices a side, so eight rings have 48 indices a side, and 48 indices are three lines.
 const INDEX_RINGS: u32 = 8;
 
 impl IndexTable {

@@ -11,7 +11,7 @@ use super::vertices::Surface;
 use crate::engine::Work;
 use crate::rolls::block_number;
 
-/// The input that all runs share.
+/// The input that all runs of blocks share.
 pub(super) struct Maker<'a> {
     pub(super) work: &'a Work,
     seats: Vec<Seats>,
@@ -27,8 +27,8 @@ impl<'a> Maker<'a> {
         Self { work, seats: Seats::at_each_place(plan), surfaces }
     }
 
-    /// Makes `piece`, which is work on `blocks`. If any of their rings may be flattened, a separate
-    /// function does so, in order that the loops of round yarns stay small.
+    /// Makes `piece`, which is work on `blocks`. A piece with rings that may be flattened is made
+    /// in a separate function, so that the loops for round yarns stay small.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn make<S: Simd>(&self, simd: S, piece: impl Piece, blocks: &[Block]) {
         if self.source().all_round(Stretch::of(blocks)) {
@@ -38,7 +38,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Whether the yarn of `blocks` leans.
+    /// Whether the outlines of the yarn of `blocks` lean.
     pub(super) fn leans(&self, blocks: &[Block]) -> bool {
         self.work.plan.leans(blocks[0].yarn as usize).is_some()
     }

@@ -1,5 +1,5 @@
-//! Both stages at once: vertices and indices, from rings that never leave the registers. Yarns that
-//! lean are made apart (`leaning.rs`).
+//! Stage 1 (rings) and stage 2 (vertices and indices) in one loop. Rings stay in registers and are
+//! never stored. Yarns whose outlines lean are made in `leaning.rs`.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk, MeshMut};
@@ -41,7 +41,7 @@ pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: Mes
     caps(work, chunk, out);
 }
 
-/// Both stages for a run of blocks.
+/// Makes the rings and the mesh of a run of blocks.
 pub(super) struct MeshJob<'a> {
     pub(super) maker: &'a Maker<'a>,
     /// The pattern of indices; none if the topology has no indices.
@@ -151,7 +151,7 @@ impl Sink for MeshSink<'_> {
     }
 }
 
-/// The memory through which vertices get to their lines.
+/// The scratch memory through which vertices get to the lines of the output.
 enum Way<'a> {
     Tiles(TileLines<'a>),
     Scratch(VertexLines<'a>),

@@ -15,8 +15,8 @@ use crate::engine::Work;
 use crate::packed::caps;
 use crate::pages;
 
-/// The number of blocks that are made at a time. With six sides they take some 70 kB, together with
-/// the packed vertices.
+/// The number of blocks that are made at a time. With six sides their vertices and their packed
+/// vertices together take some 70 kB.
 const BLOCKS: usize = 5;
 
 /// The number of words of a packed vertex.
@@ -53,8 +53,8 @@ pub(super) fn packed(set: InstructionSet, work: &Work, chunk: &Chunk, out: &mut 
 struct PackJob<'a> {
     vertices: &'a [Vertex],
     quantum: Quantum,
-    /// Memory for the words of the packed vertices. Words are moved as the floats that have their
-    /// bits.
+    /// Memory for the words of the packed vertices. Each word is held as the float that has the
+    /// same bits.
     words: &'a mut [f32],
     out: &'a mut [PackedVertex],
     streams: bool,
@@ -73,7 +73,7 @@ impl Job for PackJob<'_> {
         for (pairs, words) in vectors.zip(packed.chunks_exact_mut(2 * WORDS * S::LANES)) {
             pack(simd, pairs, quantum, words);
         }
-        // What is left is less than a vector of pairs, and perhaps half a pair more.
+        // Fewer pairs than a vector holds are left, and perhaps one single vertex.
         let mut last = [Vertex::default(); 2 * LANES_MAX];
         last[..rest.len() / WORDS].copy_from_slice(&vertices[2 * whole..]);
         let mut room = [0.0; 2 * WORDS * LANES_MAX];
@@ -95,7 +95,7 @@ impl Job for PackJob<'_> {
     }
 }
 
-/// Packs a vector of pairs, a pair a lane, in the way of [`PackedVertex::pack`].
+/// Packs a vector of pairs, one pair in each lane, as [`PackedVertex::pack`] does.
 #[cfg_attr(optimized, inline(always))]
 fn pack<S: Simd>(simd: S, pairs: &[Pair], quantum: Quantum, words: &mut [f32]) {
     // No closures here: they would not be compiled for the instructions of `simd`.
@@ -120,11 +120,12 @@ fn position<S: Simd>(simd: S, [x, y, z]: [S::Floats; 3], quantum: Quantum) -> [S
 
 const _: () = assert!(Quantum::BITS == 21);
 
-/// The lowest bits of the whole quanta that are nearest to the coordinates `mm`.
+/// The coordinates `mm`, rounded to whole quanta. Only the lowest [`Quantum::BITS`] bits are kept.
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
-    // If two whole numbers of turns are equally near, either will do: the lowest bits are the same.
+    // `turns` says how often the lowest bits wrap round. If two whole numbers are equally near,
+    // either will do, because the lowest bits are the same.
     let turns = (quanta * simd.splat(1.0 / Quantum::WRAP) + simd.splat(0.5)).floor();
     let rest = quanta - turns * simd.splat(Quantum::WRAP);
     (rest + simd.splat(PackedVertex::ROUNDING)).to_bits().masked((1 << Quantum::BITS) - 1)

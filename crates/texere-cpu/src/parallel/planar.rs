@@ -1,4 +1,5 @@
-//! A test on control points for yarns along which every step of the frame is zero.
+//! A test on control points that finds yarns along which every step of the frame is zero. A step is
+//! the turn of a section from one ring to the next.
 //!
 //! Most woven threads keep to a plane of constant x, or of constant y, and never turn back in it.
 //! The sides of their frames then lie along the x axis, or along the y axis, and the products of

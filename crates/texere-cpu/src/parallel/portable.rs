@@ -136,7 +136,8 @@ impl Simd for Portable {
 
     #[cfg_attr(optimized, inline(always))]
     fn scatter(self, rows: [F32x4; 4], out: &mut [f32], stride: usize) {
-        // Splitting off what each lane has written is cheaper to check than an index for each lane.
+        // `left` is cut down lane by lane, because its bounds are cheaper to check than an index
+        // for each lane.
         let mut left = &mut out[..3 * stride + 4];
         for lane in 0..4 {
             left[..4].copy_from_slice(&each(|row| rows[row].0[lane]));

@@ -1,10 +1,11 @@
 //! Stage 1 in lanes: consecutive rings of a yarn, a vector of them at a time.
 //!
 //! The formulas and their order are those of `Segment` and `Basis` in the core, so the bits are the
-//! same. The core branches for rare cases: a yarn at rest, a tangent along z, an open yarn's last
-//! ring. The lanes only detect a ring at rest or with a tangent along z, and call the core's own
-//! functions for it. An open yarn's last ring gets a seat of its own ([`Seats`]). The core makes it
-//! only if it is the first of a vector.
+//! same. The core branches for rare cases: a place where the spline's velocity counts as zero, a
+//! tangent along z, an open yarn's last ring. The lanes only detect a ring of the first two kinds,
+//! and call the core's own functions for it. An open yarn's last ring gets a seat of its own. A
+//! seat ([`Seats`]) is a ring's interval and its parameter there. The core makes the last ring only
+//! if it is the first of a vector.
 
 use texere_core::ControlPoint;
 use texere_core::backend::{Block, PaddedPoints, Plan};
@@ -18,7 +19,8 @@ use super::spline::{Cubics, Seats, all_round, held_size, xyz};
 pub(super) struct Source<'a> {
     pub(super) plan: &'a Plan,
     pub(super) points: &'a PaddedPoints,
-    /// The seats of a vector, for each place in an interval at which its first ring can lie.
+    /// For each place in an interval at which the first ring of a vector can lie: the seats of the
+    /// vector's rings.
     pub(super) seats: &'a [Seats],
 }
 
@@ -76,9 +78,9 @@ pub(super) struct Rings<S: Simd, const FLATTENED: bool> {
     pub(super) up: [S::Floats; 3],
     /// Sine and cosine of the roll.
     pub(super) roll: (S::Floats, S::Floats),
-    /// The centre relative to the interval's start. Chords are made from it and `span`.
+    /// The centre relative to the interval's start, mm. Chords are made from `offset` and `span`.
     pub(super) offset: [S::Floats; 3],
-    /// The end of the interval relative to its start.
+    /// The end of the interval relative to its start, mm.
     pub(super) span: [S::Floats; 3],
     /// The parameter of the ring in its interval: zero where the interval starts.
     pub(super) t: S::Floats,
@@ -163,7 +165,7 @@ impl<'a, S: Simd, const FLATTENED: bool> Walk<'a, S, FLATTENED> {
         rings
     }
 
-    /// Replaces those of the next rings whose bits are set in `rare` by rings that the core makes.
+    /// Replaces each ring whose bit is set in `rare` by the ring that the core makes.
     #[cfg_attr(optimized, inline(always))]
     fn mended(&self, rings: Rings<S, FLATTENED>, rare: u32) -> Rings<S, FLATTENED> {
         let mut fields = rings.fields();

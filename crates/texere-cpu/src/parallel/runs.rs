@@ -90,8 +90,8 @@ struct Rest<'a, T> {
 }
 
 impl<'a, T> Rest<'a, T> {
-    /// Splits off the values from number `first` up to `end`. Values between runs may belong to
-    /// none.
+    /// Splits off the values from number `first` up to `end`. Values between runs may belong to no
+    /// run.
     fn take(&mut self, first: u32, end: u32) -> &'a mut [T] {
         take(&mut self.rest, (first - self.first) as usize);
         self.first = end;

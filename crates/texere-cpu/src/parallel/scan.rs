@@ -1,4 +1,5 @@
-//! Rolls. Each block adds up its own steps. A running sum then goes along each yarn's blocks.
+//! Rolls: how far each ring's section is turned about its yarn. Each block adds up its own steps,
+//! the turns from one ring to the next. A running sum then goes along each yarn's blocks.
 
 use std::ops::Range;
 
@@ -125,8 +126,8 @@ impl Job for ScanRun<'_> {
     }
 }
 
-/// Adds up the steps between the rings of `stretch`: the rings of `rings`, and perhaps the ring
-/// after them.
+/// Adds up the steps between the rings of `stretch`. It has one ring for each entry of `rings`, and
+/// one ring more unless the yarn ends there.
 #[cfg_attr(optimized, inline(always))]
 fn sums<S: Simd>(simd: S, source: Source<'_>, stretch: Stretch, blocks: &mut [Turn], rings: &mut [Turn]) {
     // Rolls do not depend on sizes.

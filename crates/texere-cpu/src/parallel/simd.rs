@@ -74,7 +74,7 @@ pub(super) trait Simd: Copy + Debug + Send + Sync {
     /// Tiles of four by four values, transposed: lane 4j + c of column q is lane 4j + q of row c.
     fn tiles(self, rows: [Self::Floats; 4]) -> [Self::Floats; 4];
 
-    /// Makes lines of columns. With n lines for every four lanes, line jn + i becomes lanes 4j to
+    /// Makes lines from columns. With n lines for every four lanes, line jn + i becomes lanes 4j to
     /// 4j + 3 of columns 4i to 4i + 3. With `STREAM` the lines go past the caches, if the processor
     /// can do so.
     fn arrange<const STREAM: bool>(self, columns: &[f32], lines: &mut [Line]);

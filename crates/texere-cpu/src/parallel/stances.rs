@@ -158,7 +158,7 @@ impl<S: Simd> Stances<S> for SixSided<S> {
     }
 }
 
-/// Rings of flattened yarns, some of which are round.
+/// Rings of a flattened yarn. Some of these rings are round.
 pub(super) struct Mixed<'a, S: Simd, const FLATTENED: bool> {
     pub(super) flat: Flat<'a, S, FLATTENED, true, true>,
     pub(super) round: Round<'a, S, FLATTENED, SLOPED>,

@@ -5,8 +5,9 @@
 //! gives a column for each quarter of four rings. The first four lanes of a column hold one quarter
 //! of one ring, the next four lanes the same quarter of the ring four further on, and so on. The
 //! first four lanes of four consecutive columns are a line, and so are the next four lanes. Columns
-//! pass through memory, where they are aligned and are read as they were stored. A read thus need
-//! not wait until the lines of earlier rings have gone past the caches, which is slow.
+//! pass through memory. Each column is stored, and later read, as one aligned vector, so the
+//! processor can hand the stored vector on to the read. Otherwise the read would wait until the
+//! lines of earlier rings have gone past the caches, which is slow.
 
 use super::lines::Lines;
 use super::runs::take;
@@ -15,14 +16,15 @@ use super::simd::{Floats, LANES_MAX, LINE, Line, Simd};
 /// The number of floats of a quarter of a line.
 const QUARTER: usize = 4;
 
-/// The most columns of the rings before that the first lines need: a line less a quarter.
+/// The most columns of earlier rings that the first lines of a vector of rings need: a line less a
+/// quarter.
 const BEFORE: usize = LINE / QUARTER - 1;
 
 /// Vertices on their way to the output, a vector of rings at a time.
 #[derive(Debug)]
 pub(super) struct TileLines<'a> {
     out: Lines<'a>,
-    /// The last columns of the rings before, and then a column for each quarter of four rings.
+    /// The last columns of the rings sent before, and then a column for each quarter of four rings.
     columns: &'a mut [f32],
     /// Memory for lines that lie only in part in the output.
     edge: &'a mut [Line],

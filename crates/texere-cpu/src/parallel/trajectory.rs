@@ -1,4 +1,4 @@
-//! Stage 1 for a caller who wants the rings themselves.
+//! Stage 1 alone, for callers that want rings and no mesh.
 
 use rayon::prelude::*;
 use texere_core::backend::{Block, Chunk};

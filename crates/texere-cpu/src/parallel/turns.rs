@@ -8,7 +8,7 @@ use super::rings::{Rings, Source};
 use super::simd::{Floats, Integers, LANES_MAX, Mask, Simd, difference, dot, plus, scale, select};
 use crate::rolls::Rolls;
 
-/// The steps along upright rings.
+/// The steps along upright rings. A step is the turn of a section from one ring to the next.
 #[derive(Debug)]
 pub(super) struct Steps<S: Simd> {
     simd: S,
@@ -127,7 +127,7 @@ fn preceding<F: Floats>(before: [F; 3], here: [F; 3]) -> [F; 3] {
     [here[0].shift_in(before[0]), here[1].shift_in(before[1]), here[2].shift_in(before[2])]
 }
 
-/// The turns of double reflection from the rings of `before` to `rings`.
+/// How far double reflection turns the frame from the rings of `before` to `rings`, in turns.
 #[cfg_attr(optimized, inline(always))]
 fn transport<S: Simd>(
     simd: S,

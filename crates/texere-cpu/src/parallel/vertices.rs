@@ -51,7 +51,8 @@ impl<'a> Surface<'a> {
         } else if !self.round {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, PLAIN>(rings), self.outline, out);
         } else if let Some((outline, [])) = self.outline.split_first_chunk::<6>() {
-            // With six sides the compiler knows loops and strides.
+            // The length of `outline` is a constant here, so the compiler knows the lengths of
+            // loops and the strides.
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), outline, out);
         } else {
             vertices::<S, _, COLUMNS>(simd, &Round::<S, FLATTENED, ROUND>(rings), self.outline, out);

@@ -2,8 +2,9 @@
 
 use texere_core::{Bounds, Ray};
 
-/// The ray counts as not moving along an axis if the scaled direction's component is below this.
-/// Directions are scaled so that the largest component is from 1 to 4, or less if it was subnormal.
+/// The ray counts as not moving along an axis if the size of the scaled direction's component is
+/// below this. Directions are scaled so that the largest component is from 1 to 4, or less if it
+/// was subnormal.
 const NO_WAY: f64 = 1e-290;
 
 /// The factor by which the distance at which a ray leaves a box is enlarged. Both it and the

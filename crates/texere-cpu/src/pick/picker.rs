@@ -53,10 +53,10 @@ pub enum PickError {
 
 /// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
 ///
-/// No mesh is made for it. A picker holds the control points, 16 bytes each, and about 50 bytes for
-/// each block of 64 rings. The time of a ray grows with the logarithm of both. Triangles are those
-/// of the CPU backends, to the bit, and lie between the same rings and sides whatever the
-/// [`Topology`](texere_core::Topology).
+/// The picker needs no mesh. It holds the control points, 16 bytes each, and about 50 bytes for
+/// each block of 64 rings. The time for one ray grows with the logarithm of the number of blocks.
+/// The triangles are those of the CPU backends, to the bit. They lie between the same rings and
+/// sides for every [`Topology`](texere_core::Topology).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -94,7 +94,8 @@ pub struct Picker {
     pub(super) order: Vec<u32>,
     /// The position of each yarn in `cloth`.
     positions: Vec<u32>,
-    /// The distance from its middle to which each section reaches, in half widths or half heights.
+    /// For each section, the greatest distance of its outline from its middle. A section's half
+    /// width and half height count as 1.
     pub(super) reaches: Vec<f32>,
     /// The indices of the triangles between two rings.
     pub(super) pattern: Vec<u32>,

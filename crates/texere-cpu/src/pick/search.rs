@@ -9,11 +9,12 @@ use super::beam::{Beam, Touch};
 use super::picker::Picker;
 use crate::serial::rings;
 
-/// The number of rings of a block and the ring after it, where the block's last triangles end.
+/// The number of rings of a block, and one more: the block's last triangles end at the first ring
+/// of the next block.
 const RINGS: usize = BLOCK_RINGS as usize + 1;
 
-/// The factor by which reaches are enlarged, because rounding may let sections and frames reach too
-/// far.
+/// The factor by which reaches ([`Picker::reaches`]) are enlarged. Rounding in sections and frames
+/// may put a vertex slightly beyond its section's reach.
 const REACH_SLACK: f32 = 1.0 + 1e-5;
 
 /// The first triangle that a ray hits. [`YarnPlace::at`](texere_core::YarnPlace::at) takes the
@@ -31,14 +32,15 @@ pub struct Hit {
     /// The control interval of the yarn, counted from 0.
     pub interval: u32,
     /// Position along the interval, from 0 to 1, interpolated between the triangle's two rings. On
-    /// a cap it is that of the yarn's end.
+    /// a cap it is the position of the yarn's end.
     pub t: f64,
 }
 
 impl Picker {
     /// The first triangle that `ray` hits, from either side. If several triangles lie at the same
-    /// distance, it is the first along the yarns. None if the ray hits nothing, has a direction of
-    /// zero, or has numbers that are not finite.
+    /// distance, it is the triangle of the yarn with the lowest number, and on that yarn the first
+    /// one. None if the ray hits nothing, has a direction of zero, or has numbers that are not
+    /// finite.
     #[must_use]
     pub fn pick(&self, ray: &Ray) -> Option<Hit> {
         Search::new(self, Beam::new(ray)?).run()

@@ -1,4 +1,5 @@
-//! The paper's serial algorithms, written as plain nested loops.
+//! The serial algorithms of the paper "GPU-based yarn-level parallel computing framework", written
+//! as plain nested loops.
 
 mod attributes;
 mod crossings;

@@ -22,7 +22,7 @@ pub(crate) struct SerialSettler {
     lengths: Vec<f32>,
     /// The places that the last pass measured, before it moved them.
     seen: Vec<Place>,
-    /// The places that were kept; empty until then.
+    /// The places that were kept; empty until places are kept.
     kept: Vec<Place>,
     /// The interval at each place.
     intervals: Vec<Interval>,

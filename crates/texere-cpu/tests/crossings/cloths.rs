@@ -1,9 +1,9 @@
-//! Cloths at the setts of the mills.
+//! Cloths at setts that mills weave.
 
 use texere_core::crossings::{CrossingThread, Crossings};
 
-/// A cloth, its yarns in tex, and the values that it must reach: crimp in per cent, area as a share
-/// of the yarn's, and weight in g/m².
+/// A cloth, its yarns in tex, and the values that it must reach: crimp in per cent (within four
+/// points), least area of sections as a share of the yarn's, and weight in g/m² (within a tenth).
 pub(crate) struct Cloth {
     pub(crate) name: &'static str,
     pub(crate) problem: Crossings,
@@ -45,9 +45,9 @@ fn per_inch(ends: f64, picks: f64) -> [f64; 2] {
     [25.4 / ends, 25.4 / picks]
 }
 
-/// The crimp of denim is that of the mills, 10 to 14 % of the warp. The crimp of poplin is
-/// published as 14 % and 2 %. If nothing is published, the cloth must stay within four points of
-/// what it reached before.
+/// Where the expected crimps come from: mills find 10 to 14 % in the warp of denim. For poplin 14 %
+/// in the warp and 2 % in the weft are published. For all other cloths nothing is published, and
+/// the expected crimp is what the cloth reached before.
 pub(crate) fn cloths() -> Vec<Cloth> {
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);

@@ -1,5 +1,5 @@
-//! Crossings at rest: the cloths of the mills, the energy against an independent oracle, and both
-//! backends against one another.
+//! Crossings at rest: cloths at setts that mills weave, the energy against an independent oracle,
+//! and both backends against one another.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -179,8 +179,8 @@ fn balanced_plain_weave_is_alike_both_ways() {
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
         assert!(rest.at_rest, "{rest:?}");
         let [up, down] = [crossings[0], crossings[1]];
-        // If the cloth is turned over and by a right angle, it is itself. Half a repeat further on
-        // it is upside down.
+        // The cloth looks the same after it is turned over and then turned by a right angle. Half a
+        // repeat further on it is upside down.
         for (one, other, sign) in [
             (up.warp, up.weft, -1.0),
             (up.warp, down.weft, 1.0),
@@ -261,8 +261,8 @@ fn all_cores_give_the_bits_of_one() {
 
 #[test]
 fn round_threads_jam_where_peirce_says() {
-    // The best way between circles is at right angles to the line between their middles: distance²
-    // = across² + rise².
+    // Between circles the best slope is at right angles to the line between their middles. The room
+    // is then the distance of the middles, whose square is across² + rise², less all three radii.
     let mut seed = 14;
     for _ in 0..200 {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
@@ -280,7 +280,7 @@ fn a_passage_takes_the_best_slope() {
     for _ in 0..2000 {
         let mut some = |low: f32, high: f32| low + (high - low) * f32::midpoint(1.0, chance(&mut seed));
         let halves = [[some(0.3, 1.2), some(0.2, 0.8)], [some(0.3, 1.2), some(0.2, 0.8)]];
-        // No neighbours overlap much.
+        // Neighbours overlap by at most 5 % of the sum of their half widths.
         let across = (halves[0][0] + halves[1][0]) * some(0.95, 3.0);
         let rise = some(-0.5, 2.0);
         let found = StraightPassage::new(across, rise, halves, 0.7).room;

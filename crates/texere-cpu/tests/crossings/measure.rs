@@ -7,7 +7,7 @@ use crate::oracle::room;
 /// Crimp in per cent, area as a share of the yarn's, thickness in mm, weight in g/m².
 pub(crate) struct Measures {
     /// The least factor by which ellipses have to grow until two of them touch: 1 if they touch
-    /// already.
+    /// already, less if they overlap.
     pub(crate) clearance: f64,
     pub(crate) area: [f64; 2],
     pub(crate) least_area: [f64; 2],
@@ -43,7 +43,9 @@ fn length(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> 
         return across.hypot(there[1] - here[1]) - two[0] + one[0];
     }
     let rise = side * (two[1] - one[1]);
-    // The thread may run higher over the ellipses than they are. The height that it has is used.
+    // The thread may run above the ellipses that it crosses, without touching them. Their half
+    // heights are therefore taken from the thread's height: the distance of the middles, less the
+    // thread's own half height.
     let halves =
         [[one[2], (here[1] - one[1]).abs() - here[3]], [two[2], (there[1] - two[1]).abs() - there[3]]];
     let thread = here[3] + there[3];

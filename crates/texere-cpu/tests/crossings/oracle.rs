@@ -13,8 +13,8 @@ use crate::chance;
 /// of other levels, neighbours of two levels.
 pub(crate) const KINDS: usize = 8;
 
-/// `crossing`, which is one at the start, with some disorder. Its heights are multiplied by `flat`,
-/// and its half widths by about `wide`.
+/// A crossing before the first pass, with random changes. Its heights are multiplied by `flat`, and
+/// its half widths by about `wide`.
 pub(crate) fn stirred(crossing: &CrossingState, [flat, wide]: [f32; 2], seed: &mut u64) -> CrossingState {
     let mut all: [f32; 8] = bytemuck::cast(*crossing);
     for set in 0..2 {

@@ -44,7 +44,8 @@ impl PointKernels {
         unsafe { start(&mut self.points, opened, &args, params.places) }
     }
 
-    /// The least and the greatest coordinates of all control points, in the settling's whole units.
+    /// The least and the greatest coordinates of all control points, in whole units of the
+    /// settling's scale.
     pub(super) fn bounds(
         &mut self,
         opened: &Opened,

@@ -14,7 +14,7 @@ use crate::opened::Opened;
 
 impl WgpuSettler {
     /// Writes all control points, padded as `plan` says, to `points`, if that buffer belongs to the
-    /// same open device and fits one binding. Returns whether both is so.
+    /// same open device and fits one binding. Returns whether the points were written.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,
@@ -42,7 +42,8 @@ impl WgpuSettler {
         Ok(true)
     }
 
-    /// The least and the greatest coordinates of all control points, in the settling's whole units.
+    /// The least and the greatest coordinates of all control points, in whole units of the
+    /// settling's scale.
     pub(super) fn find_bounds(&self) -> Result<[[i32; 3]; 2], BackendError> {
         let gpu = &self.opened.gpu;
         let groups = self.kernels.bounds.workgroups(self.params.places).min(EXTENT_GROUPS);

@@ -19,7 +19,8 @@ pub(super) struct Own<'a> {
     pub(super) lengths: &'a [f32],
 }
 
-/// Slots in lanes: nine numbers for each of four control points.
+/// The slots of the core's `Pull` in lanes: nine numbers for each of an interval's four control
+/// points.
 type Slots<F> = [[F; 9]; 4];
 
 impl Own<'_> {
@@ -146,7 +147,7 @@ impl Own<'_> {
             let chords = self.plan.chords()[place + lane + 1] - self.plan.chords()[place + lane];
             if tags & (tag::OPENS | tag::ENDS) != 0 || chords > BEND_PARTS {
                 // Bends at the ends of an open yarn count differently, and intervals of many chords
-                // are measured in more places. The core's own function makes both.
+                // are measured in more places. The core's own function handles both cases.
                 self.alone(place + lane, (tags, chords), pull);
                 continue;
             }

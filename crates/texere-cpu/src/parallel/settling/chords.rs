@@ -1,5 +1,5 @@
 //! Pairs of chords in lanes: the nearest image of the second chord, and the places where the two
-//! come nearest to one another.
+//! chords come nearest to one another. An image is a copy of the chord in some repeat of the cloth.
 
 use texere_core::settling::{SHORT, SettlingPlan};
 
@@ -52,7 +52,7 @@ pub(super) struct Nearest<S: Simd> {
     pub(super) shares: [S::Floats; 2],
     /// The way from the first chord's place to the second's, mm.
     pub(super) apart: [S::Floats; 3],
-    /// Minus the number of repeats to the image of the second chord.
+    /// Minus the number of repeats to the image of the second chord, along x and along y.
     pub(super) image: [S::Floats; 2],
 }
 
@@ -84,7 +84,7 @@ pub(super) struct Images<S: Simd> {
     any: bool,
     period: [i32; 2],
     frequency: [S::Floats; 2],
-    /// A unit of places, mm.
+    /// The unit of places, mm.
     pub(super) unit: S::Floats,
 }
 
@@ -101,9 +101,10 @@ impl<S: Simd> Images<S> {
         }
     }
 
-    /// The way to the nearest image, and minus the number of repeats to it. `middles`, mm, is added
-    /// to the way only to choose the image. It leads from the way's ends to the points for which
-    /// the image has to be the nearest.
+    /// The vector to the nearest image, and minus the number of repeats to it. `way` is the vector
+    /// between one point of each chord. `middles`, mm, is what has to be added to `way` to get the
+    /// vector between the middles of both chords. The nearest image is the one whose middle is
+    /// nearest. `middles` is not added to the vector that is returned.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn nearest(
         &self,
@@ -121,7 +122,7 @@ impl<S: Simd> Images<S> {
         (self.moved(way, image), image)
     }
 
-    /// The way to an image. `image` is minus the number of repeats to it.
+    /// The vector to an image. `image` is minus the number of repeats to it.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn moved(&self, [x, y, z]: [S::Integers; 3], image: [S::Floats; 2]) -> [S::Integers; 3] {
         if !self.any {

@@ -8,7 +8,7 @@ use crate::parallel::simd::{Floats, Mask, Simd, dot, plus, scale, to_bits};
 pub(super) struct Curve<S: Simd> {
     pub(super) start: [S::Integers; 3],
     pub(super) terms: [[S::Floats; 3]; 3],
-    /// Half width and half height at the beginning, and the growth of each.
+    /// Half width and half height at the beginning, and the growth of each along the interval, mm.
     pub(super) halves: [[S::Floats; 2]; 2],
 }
 
@@ -43,7 +43,7 @@ impl<S: Simd> Curve<S> {
         acceleration(simd, &self.terms, u)
     }
 
-    /// The speed at `u`.
+    /// The length of the velocity at `u`.
     #[cfg_attr(optimized, inline(always))]
     pub(super) fn speed(&self, simd: S, u: f32) -> S::Floats {
         let velocity = self.velocity(simd, simd.splat(u));

@@ -30,8 +30,8 @@ pub(super) struct Lists {
     pub(super) starts: Vec<u32>,
     /// The neighbours of all chords, and [`LANES_MAX`] entries more.
     pub(super) neighbours: Vec<u32>,
-    /// For each chord: its middle (as bits), and the distance from there up to which it reaches,
-    /// mm. Two chords may be neighbours if their middles are nearer than both distances together.
+    /// For each chord: its middle (as bits of `i32`), and its reach, mm. Two chords may be
+    /// neighbours if the distance of their middles is less than the sum of both reaches.
     middles: Vec<[f32; 4]>,
     /// Each chord's cell and number, with the cell in the high bits, sorted.
     sorted: Vec<u64>,
@@ -48,7 +48,7 @@ pub(super) struct Lists {
 struct Task {
     /// The neighbours of the task's chords.
     neighbours: Vec<u32>,
-    /// Chords that may be neighbours of the present one.
+    /// The chords that may be neighbours of the chord at hand.
     near: Vec<u32>,
 }
 
@@ -180,7 +180,7 @@ impl Job for MiddleJob<'_> {
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
             // Each chord gets half of the distance that `are_neighbours` allows, and half its own
-            // length. A thousandth and one unit more are more than rounding may take away.
+            // length. Rounding takes away less than the thousandth and the one unit that are added.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));
@@ -247,7 +247,8 @@ struct ListJob<'a> {
     sorted: Sorted<'a>,
     /// The number of the task's first chord.
     first: usize,
-    /// For each chord, the end of its neighbours among those of the task.
+    /// For each chord, the number of neighbours that the task has listed up to and with this
+    /// chord's.
     ends: &'a mut [u32],
     room: &'a mut Task,
     /// The number of neighbours that all tasks have listed so far.
@@ -264,7 +265,7 @@ impl Job for ListJob<'_> {
         let Task { neighbours, near } = room;
         let images = Images::new(simd, plan);
         let (grown, skin) = (simd.splat(MARGIN * growth), simd.splat(SKIN * plan.spans().diameter));
-        // The yarn of the present chord, and the chords of that yarn.
+        // The yarn of the chord at hand, and the chords of that yarn.
         let (mut yarn, mut own) = (0, 0..0);
         neighbours.clear();
         for (number, end) in (start as u32..).zip(ends) {

@@ -37,10 +37,11 @@ pub(crate) struct ParallelSettler {
     /// The present places. [`FRONT`] more entries come before the first, and [`BACK`] behind the
     /// last.
     places: Vec<Place>,
-    /// The places that the last pass measured, before it moved them, with as many more entries.
-    /// During a pass the next places are written here.
+    /// The places that the last pass measured, before it moved them, with the same additional
+    /// entries as `places`. During a pass the next places are written here.
     seen: Vec<Place>,
-    /// The places that were kept, with as many more entries. Empty until places are kept.
+    /// The places that were kept, with the same additional entries as `places`. Empty until places
+    /// are kept.
     kept: Vec<Place>,
     /// The last step of each point, mm.
     steps: Vec<[f32; 4]>,

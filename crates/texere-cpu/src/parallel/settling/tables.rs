@@ -50,15 +50,15 @@ impl Fixed {
     }
 }
 
-/// An interval, in four rows of a vector and a number each: the beginning (as bits of `i32`) and
-/// the growth of the half width; the coefficient of u and the half width; the coefficient of u² and
-/// the half height; the coefficient of u³ and the growth of the half height.
+/// An interval, in four rows. Each row has a vector and a number: the beginning (as bits of `i32`)
+/// and the growth of the half width; the coefficient of u and the half width; the coefficient of u²
+/// and the half height; the coefficient of u³ and the growth of the half height.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct IntervalRow(pub(super) [[f32; 4]; 4]);
 
 /// A chord, in two rows: the point where it begins and the place of its interval (both as bits);
-/// its span and the largest half of its interval.
+/// its span, mm, and the largest half width or half height of its interval, mm.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct ChordRow(pub(super) [[f32; 4]; 2]);

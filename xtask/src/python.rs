@@ -11,6 +11,9 @@ pub(crate) const PACKAGES: [&str; 2] = ["python3", "python3-venv"];
 /// The folder of the package, from the repository's root.
 const PACKAGE: &str = "crates/texere-python";
 
+/// The notebooks, which are run from their first cell to their last.
+const NOTEBOOKS: &str = "docs/notebooks";
+
 /// The environment that the package is installed in, and the folder of its wheel.
 const ENVIRONMENT: &str = "target/python/environment";
 const WHEELS: &str = "target/python/wheels";
@@ -41,6 +44,7 @@ pub(crate) fn test(steps: &mut Steps) {
     steps.cargo("the program", &["build", "--workspace", "--bin", "texere", "--locked"], &[]);
     let tests = format!("{PACKAGE}/tests");
     steps.run("tests of the Python package", &[&python, "-m", "pytest", "--quiet", &tests], &[]);
+    steps.run("notebooks", &[&python, "-m", "pytest", "--quiet", "--nbmake", NOTEBOOKS], &[]);
 }
 
 /// The wheel in a folder.

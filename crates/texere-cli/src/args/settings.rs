@@ -20,8 +20,8 @@ pub(crate) struct SettingsArgs {
     /// Tension of the spline, 0 to below 1. If left out, 0, or the tension of saved yarns
     #[arg(long, value_name = "U")]
     pub(crate) tension: Option<f32>,
-    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT[:DISTORTION],
-    /// power-ellipse:ASPECT:EXPONENT, lobed:PLIES
+    /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT,
+    /// lenticular:ASPECT:DISTORTION, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
     /// How sections stand along the yarn: upright, which is the default, or carried along without

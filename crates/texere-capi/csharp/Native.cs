@@ -423,11 +423,12 @@ namespace Texere
         /// <summary>
         ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
         ///  design asks for it. `run` may be null.
-        ///
-        ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
-        ///  woven cloth that can't settle at all stay where the structure places them. The call fails with
-        ///  TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
-        ///  yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
+        /// 
+        ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
+        ///  did. Threads of woven cloth that can't settle at all stay where the structure places them. The
+        ///  call fails with TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with
+        ///  TEXERE_UNSUPPORTED if yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was
+        ///  cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_rest", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_rest(texere_design* design, texere_device* device, texere_run* run, texere_cloth** @out);
@@ -449,9 +450,9 @@ namespace Texere
         internal static extern texere_status texere_cloth_report(texere_cloth* cloth, texere_report* report);
 
         /// <summary>
-        ///  Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
-        ///  that ends with a zero byte, valid until the cloth is freed.
-        ///
+        ///  Lends warning `number` of a cloth, counted from 0: writes the address of the warning's text to
+        ///  `words`. The text is UTF-8 that ends with a zero byte, valid until the cloth is freed.
+        /// 
         ///  Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_warning", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -1317,10 +1317,11 @@ void texere_check_free(struct texere_check *check);
 // Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
 // design asks for it. `run` may be null.
 //
-// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
-// woven cloth that can't settle at all stay where the structure places them. The call fails with
-// TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
-// yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
+// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
+// did. Threads of woven cloth that can't settle at all stay where the structure places them. The
+// call fails with TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with
+// TEXERE_UNSUPPORTED if yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was
+// cancelled.
 enum texere_status texere_cloth_rest(const struct texere_design *design,
                                      const struct texere_device *device,
                                      const struct texere_run *run,
@@ -1338,8 +1339,8 @@ enum texere_status texere_cloth_placed(const struct texere_design *design,
 enum texere_status texere_cloth_report(const struct texere_cloth *cloth,
                                        struct texere_report *report);
 
-// Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
-// that ends with a zero byte, valid until the cloth is freed.
+// Lends warning `number` of a cloth, counted from 0: writes the address of the warning's text to
+// `words`. The text is UTF-8 that ends with a zero byte, valid until the cloth is freed.
 //
 // Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
 enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,

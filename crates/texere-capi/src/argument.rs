@@ -29,8 +29,8 @@ pub(crate) unsafe fn slice<'a, T>(name: &str, pointer: *const T, count: usize) -
     }
     check(name, pointer)?;
     fits::<T>(name, count)?;
-    // SAFETY: the pointer is neither null nor misaligned nor too long; the caller vouches for the
-    // rest.
+    // SAFETY: the pointer is neither null nor misaligned, and `count` is not too large; the caller
+    // vouches for the memory.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
@@ -50,8 +50,8 @@ pub(crate) unsafe fn slice_mut<'a, T>(
     }
     check(name, pointer)?;
     fits::<T>(name, count)?;
-    // SAFETY: the pointer is neither null nor misaligned nor too long; the caller vouches for the
-    // rest.
+    // SAFETY: the pointer is neither null nor misaligned, and `count` is not too large; the caller
+    // vouches for the memory.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer, count) })
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn given<F>(callback: Option<F>) -> Result<F, Failure> {
 /// `to` is valid for a write.
 pub(crate) unsafe fn lend(name: &str, text: &CStr, to: *mut *const c_char) -> Result<(), Failure> {
     check(name, to)?;
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     unsafe { to.write(text.as_ptr()) };
     Ok(())
 }
@@ -121,7 +121,7 @@ pub(crate) unsafe fn write_text(
     check("length", length)?;
     // SAFETY: the caller vouches for it.
     let room = unsafe { slice_mut("words", words.cast::<u8>(), size) }?;
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     unsafe { length.write(text.len()) };
     if size == 0 {
         return Ok(());

@@ -291,7 +291,7 @@ pub unsafe extern "C" fn texere_check_diagnosis(
         // SAFETY: the caller vouches for `diagnosis`.
         unsafe { check_sized("diagnosis", diagnosis) }?;
         let found = get(check)?.diagnosis();
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(diagnosis, found) };
         Ok(())
     })
@@ -313,7 +313,7 @@ pub unsafe extern "C" fn texere_check_fault(
         let Fault { kind, value, position, words } = numbered("fault", &check.faults, number)?;
         let struct_size = size_of::<texere_fault>() as u32;
         let (kind, value, position, words) = (*kind, *value, *position, words.as_ptr());
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(fault, texere_fault { struct_size, kind, value, position, words }) };
         Ok(())
     })

@@ -85,10 +85,11 @@ impl Cloth {
 /// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
 /// design asks for it. `run` may be null.
 ///
-/// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
-/// woven cloth that can't settle at all stay where the structure places them. The call fails with
-/// TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
-/// yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
+/// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
+/// did. Threads of woven cloth that can't settle at all stay where the structure places them. The
+/// call fails with TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with
+/// TEXERE_UNSUPPORTED if yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was
+/// cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_rest(
     design: *const texere_design,
@@ -141,14 +142,14 @@ pub unsafe extern "C" fn texere_cloth_report(
             words: cloth.words.as_ptr(),
             warnings: cloth.warnings.len() as u64,
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(report, found) };
         Ok(())
     })
 }
 
-/// Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
-/// that ends with a zero byte, valid until the cloth is freed.
+/// Lends warning `number` of a cloth, counted from 0: writes the address of the warning's text to
+/// `words`. The text is UTF-8 that ends with a zero byte, valid until the cloth is freed.
 ///
 /// Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
 #[unsafe(no_mangle)]

@@ -94,7 +94,7 @@ pub unsafe extern "C" fn texere_device_describe(
             driver,
             memory_bytes: is.memory_bytes.unwrap_or(0),
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(info, found) };
         Ok(())
     })

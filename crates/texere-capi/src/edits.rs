@@ -108,7 +108,7 @@ pub unsafe extern "C" fn texere_live_lift(
             }
             Ok(drawdown.up(end, pick))
         })?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { up.write(found.into()) };
         Ok(())
     })
@@ -173,7 +173,7 @@ pub unsafe extern "C" fn texere_live_yarn(
         let [yarn] = number([("yarn", yarn)])?;
         let Yarn { material, section, closed, twist, .. } = alone(live, |editing| yarn_of(editing, yarn))?;
         let struct_size = size_of::<texere_yarn>() as u32;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe {
             write_sized(what, texere_yarn { struct_size, material, section, closed: closed.into(), twist })
         };
@@ -194,8 +194,8 @@ pub unsafe extern "C" fn texere_live_set_material(
 ) -> texere_status {
     guard(|| {
         check("material", material)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest, and
-        // for the name.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory and
+        // the name.
         let material = unsafe { material.read().read("material") }?;
         let [number] = self::number([("number", number)])?;
         alone(live, |editing| Ok(editing.live.set_material(number, material)?))
@@ -233,7 +233,7 @@ pub unsafe extern "C" fn texere_live_material(
                 name_length: editing.name.count_bytes(),
             })
         })?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { material.write(found) };
         Ok(())
     })

@@ -70,7 +70,7 @@ pub unsafe extern "C" fn texere_error_place(place: *mut texere_place) -> texere_
         }
         None => texere_place { file: null(), line: 0, column: 0 },
     });
-    // SAFETY: not null and aligned; the caller vouches for the rest.
+    // SAFETY: not null and aligned; the caller vouches for the memory.
     unsafe { place.write(found) };
     TEXERE_OK
 }

@@ -156,7 +156,7 @@ pub unsafe extern "C" fn texere_design_finish(
         // SAFETY: the caller vouches for `finish`.
         unsafe { check_sized("finish", finish) }?;
         let found = texere_finish::of(&*get(design)?);
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(finish, found) };
         Ok(())
     })

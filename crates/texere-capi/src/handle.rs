@@ -39,7 +39,7 @@ pub(crate) unsafe fn give<H: Handle>(out: *mut *mut H, value: H::Value) -> Resul
     check("out", out)?;
     let number = NEXT.fetch_add(1, Ordering::Relaxed) * APART;
     TABLE.write().unwrap_or_else(PoisonError::into_inner).insert(number, Arc::new(value));
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     unsafe { out.write(without_provenance_mut(number)) };
     Ok(())
 }
@@ -52,7 +52,7 @@ pub(crate) unsafe fn give<H: Handle>(out: *mut *mut H, value: H::Value) -> Resul
 /// `out` is valid for a write.
 pub(crate) unsafe fn clear<H>(out: *mut *mut H) -> Result<(), Failure> {
     check("out", out)?;
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     unsafe { out.write(null_mut()) };
     Ok(())
 }

@@ -214,7 +214,7 @@ pub unsafe extern "C" fn texere_live_update(
         unsafe { check_sized("update", update) }?;
         let run = get_any(run)?;
         let made = alone(live, |editing| editing.update(run))?;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(update, made) };
         Ok(())
     })
@@ -232,7 +232,7 @@ pub unsafe extern "C" fn texere_live_counts(
         // SAFETY: the caller vouches for `counts`.
         unsafe { check_sized("counts", counts) }?;
         let found = alone(live, |editing| Ok(editing.counts))?;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(counts, found) };
         Ok(())
     })
@@ -249,7 +249,7 @@ pub unsafe extern "C" fn texere_live_draws(
     guard(|| {
         check("draws", draws)?;
         let lent = alone(live, |editing| Ok(editing.draws.as_ptr()))?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { draws.write(lent) };
         Ok(())
     })

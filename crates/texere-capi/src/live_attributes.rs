@@ -33,7 +33,7 @@ impl Editing {
             ));
         }
         check("attributes", out)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         let places = unsafe { out.read().holds("attributes", wanted.vertex_count as usize) }?;
         self.read_attributes(wanted, places, progress)
     }
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn texere_live_read_attributes(
 ) -> texere_status {
     guard(|| {
         check("change", change)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         let wanted = unsafe { change.read() };
         alone(live, |editing| {
             within("vertices", wanted.first_vertex, wanted.vertex_count, editing.counts.vertices)?;

@@ -157,7 +157,7 @@ pub unsafe extern "C" fn texere_live_read(
 ) -> texere_status {
     guard(|| {
         check("change", change)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         let wanted = unsafe { change.read() };
         alone(live, |editing| {
             within("vertices", wanted.first_vertex, wanted.vertex_count, editing.counts.vertices)?;

@@ -180,7 +180,7 @@ pub unsafe extern "C" fn texere_diameter(tex: f64, density: f64, diameter_mm: *m
                 return Err(Failure::argument(format!("{name} is {value}, expected a number above 0")));
             }
         }
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { diameter_mm.write(texere::yarn::diameter_mm(tex, density)) };
         Ok(())
     })

@@ -90,7 +90,7 @@ pub unsafe extern "C" fn texere_cloth_measures(
         unsafe { check_sized("measures", measures) }?;
         let cloth = get(cloth)?;
         let found = of(cloth.measures()?, cloth.cloth.design().structure.size_mm());
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(measures, found) };
         Ok(())
     })

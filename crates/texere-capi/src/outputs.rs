@@ -86,7 +86,7 @@ unsafe fn places<T: Copy>(
 ) -> Result<(Arc<Planned>, Strided<'static, T>), Failure> {
     check(name, out)?;
     let plan = get(plan)?;
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     let places = unsafe { out.read().holds(name, count(&plan) as usize) }?;
     Ok((plan, places))
 }

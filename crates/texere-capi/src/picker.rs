@@ -108,7 +108,7 @@ impl Place {
     /// `hit` is valid for a read.
     unsafe fn of(hit: *const texere_hit) -> Result<Self, Failure> {
         check("hit", hit)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         let texere_hit { found, yarn, interval, t, position, .. } = unsafe { hit.read() };
         if found != 1 {
             return Err(Failure::argument(format!("hit.found is {found}, so there is no place to name")));
@@ -157,7 +157,7 @@ unsafe fn picked(
 ) -> Result<(), Failure> {
     check("ray", ray)?;
     check("hit", hit)?;
-    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+    // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
     let ray = unsafe { ray.read() };
     let found = pick(&ray.into())?;
     // SAFETY: as for `ray`.

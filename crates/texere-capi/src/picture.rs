@@ -155,7 +155,7 @@ pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) ->
             field_of_view: FIELD_OF_VIEW,
             height_mm: 0.0,
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(picture, usual) };
         Ok(())
     })

@@ -206,7 +206,7 @@ pub unsafe extern "C" fn texere_plan_counts(
         // SAFETY: the caller vouches for `counts`.
         unsafe { check_sized("counts", counts) }?;
         let found = get(plan)?.counts;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(counts, found) };
         Ok(())
     })
@@ -224,7 +224,7 @@ pub unsafe extern "C" fn texere_plan_draws(
     guard(|| {
         check("draws", draws)?;
         let plan = get(plan)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { draws.write(plan.draws.as_ptr()) };
         Ok(())
     })
@@ -246,7 +246,7 @@ pub unsafe extern "C" fn texere_plan_ring_offsets(
         check("count", count)?;
         let plan = get(plan)?;
         let own = plan.plan.ring_offsets();
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe {
             offsets.write(own.as_ptr());
             count.write(own.len() as u64);
@@ -306,7 +306,7 @@ pub unsafe extern "C" fn texere_plan_chunk(
             draws: draws.as_ptr(),
             draw_count: draws.len() as u64,
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(chunk, found) };
         Ok(())
     })

@@ -86,7 +86,7 @@ pub unsafe extern "C" fn texere_renderer_extent(
     guard(|| {
         check("extent", extent)?;
         let found = alone(renderer, |drawing| drawing.extent())?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { extent.write(found) };
         Ok(())
     })
@@ -113,7 +113,7 @@ pub unsafe extern "C" fn texere_renderer_picture(
         let picture = unsafe { checked(picture) }?;
         let [width, height] = [picture.width, picture.height].map(|side| side as usize);
         check("pixels", pixels)?;
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         let mut rows = unsafe { pixels.read().rows("pixels", height, width.saturating_mul(PIXEL)) }?;
         let run = get_any(run)?;
         let made = alone(renderer, |drawing| drawing.picture(&picture, reporter(run)))?;
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn texere_renderer_seen(
             yarn: yarn as u32,
             is_yarn: 1,
         });
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { seen.write(found) };
         Ok(())
     })

@@ -68,7 +68,7 @@ pub unsafe extern "C" fn texere_run_progress(run: *const texere_run, share: *mut
     guard(|| {
         check("share", share)?;
         let done = f64::from_bits(get(run)?.share.load(Ordering::Relaxed));
-        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the rest.
+        // SAFETY: the pointer is neither null nor misaligned; the caller vouches for the memory.
         unsafe { share.write(done) };
         Ok(())
     })

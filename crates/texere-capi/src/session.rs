@@ -68,7 +68,7 @@ pub unsafe extern "C" fn texere_session_native(
         // SAFETY: the caller vouches for `native`.
         unsafe { check_sized("native", native) }?;
         let found = alone(session, |lending| natives(lending.session.engine()))?;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(native, found) };
         Ok(())
     })
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn texere_session_mesh(
             let slot = session.slot_of_mesh(chunk)?;
             lend(session.engine(), slot, chunk)
         })?;
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(mesh, found) };
         Ok(())
     })

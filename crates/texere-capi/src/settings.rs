@@ -108,7 +108,7 @@ pub unsafe extern "C" fn texere_settings_default(
             caps: u32::from(usual.caps),
             quantum_mm: usual.quantum.mm(),
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(settings, found) };
         Ok(())
     })

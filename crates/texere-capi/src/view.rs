@@ -43,8 +43,8 @@ impl Rows<'_> {
     ///
     /// **Panics** past the last row.
     pub(crate) fn row(&self, number: usize) -> &[u8] {
-        // SAFETY: the row lies within the memory that `rows` has checked; the caller of `rows`
-        // vouches for the rest.
+        // SAFETY: the row lies within the `size` bytes of the view, as `rows` has checked; the
+        // caller of `rows` vouches for these bytes.
         unsafe { std::slice::from_raw_parts(self.place(number), self.bytes) }
     }
 
@@ -152,7 +152,7 @@ impl<T: Copy> Strided<'_, T> {
         if self.count == 0 {
             return Some(&mut []);
         }
-        // SAFETY: `holds` has checked pointer and size; the caller of `rows` vouches for the rest.
+        // SAFETY: `holds` has checked pointer and size; its caller vouches for the memory.
         (self.stride == size_of::<T>())
             .then(|| unsafe { std::slice::from_raw_parts_mut(self.first, self.count) })
     }
@@ -162,7 +162,8 @@ impl<T: Copy> Strided<'_, T> {
     /// **Panics** past the last value.
     pub(crate) fn write(&mut self, first: usize, values: impl IntoIterator<Item = T>) {
         for (number, value) in values.into_iter().enumerate() {
-            // SAFETY: as for `place`.
+            // SAFETY: the place lies within the memory that `holds` has checked; the caller of
+            // `holds` vouches for it.
             unsafe { self.place(first + number).write(value) };
         }
     }

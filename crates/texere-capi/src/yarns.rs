@@ -255,7 +255,7 @@ pub unsafe extern "C" fn texere_yarns_counts(
             yarns: yarns.layout().yarns().len() as u64,
             points: yarns.points().len() as u64,
         };
-        // SAFETY: `check_sized` has taken it; the caller vouches for the rest.
+        // SAFETY: `check_sized` has accepted the size; the caller vouches for the memory.
         unsafe { write_sized(counts, found) };
         Ok(())
     })

@@ -3,7 +3,7 @@
 use texere_core::{Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, SectionError, TWIST_LIMIT, Yarn};
 use thiserror::Error;
 
-/// A thread that is refused, in any structure.
+/// The reason why a thread or a section of any structure is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ThreadError {

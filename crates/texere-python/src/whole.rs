@@ -33,10 +33,11 @@ struct Laid {
 /// Where the vertices of a chunk lie in the whole.
 #[derive(Debug, Clone, Copy)]
 struct Place {
-    /// Those of tubes, which come first in the chunk, and how many they are.
+    /// The number, in the whole, of the first vertex of the chunk's tubes. `length` is how many
+    /// vertices of tubes there are; they come first in the chunk.
     tubes: usize,
     length: usize,
-    /// Those of caps.
+    /// The number, in the whole, of the first vertex of the chunk's caps.
     caps: usize,
 }
 

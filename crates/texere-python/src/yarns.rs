@@ -20,7 +20,7 @@ use crate::watch;
 /// Yarns that several objects of Python share.
 #[derive(Debug, Clone)]
 pub(crate) enum Shared {
-    /// Those of a cloth.
+    /// The yarns of a cloth.
     Cloth(Arc<texere::Cloth>),
     /// Yarns of their own.
     Own(Arc<texere::Yarns>),

@@ -22,23 +22,23 @@ use crate::{Background, Camera, Extent, RenderError, Renderer};
 /// The number of chunks whose tables a session keeps on the device.
 const CHUNKS_KEPT: usize = 2;
 
-/// The number of control points that are sent at once: 16 MB. In between, the progress callback can
-/// stop the work.
+/// The number of control points that are sent at once: 16 MB. Before the next ones are sent, the
+/// progress callback can stop the work.
 const UPLOAD_POINTS: usize = 1 << 20;
 
-/// The share of a picture's progress at which all chunks are drawn, and the share at which the
-/// picture is lit.
+/// The progress, from 0 to 1, that callbacks get when all chunks are drawn, and when the picture is
+/// lit. Nothing else depends on these numbers.
 const DRAWN: f64 = 0.7;
 const LIT: f64 = 0.9;
 
 /// The quality of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quality {
-    /// The pixels of the screen for each pixel of the picture, each way. Each pixel of the screen
-    /// has four samples.
+    /// A picture is made from a screen that is this many times as wide and as high as the picture.
+    /// Each pixel of the screen has four samples.
     pub supersampling: u32,
     /// Whether fibres that stand off yarns are drawn. They are drawn if threads are four pixels
-    /// wide or more, and never in cuts.
+    /// wide or more, and never with [`Camera::cut`].
     pub hairs: bool,
 }
 
@@ -57,10 +57,11 @@ const FINE_SIDES: u32 = 16;
 /// larger cloths are hardly wider than pixels.
 const FINE_POINTS: usize = 4_000_000;
 
-/// The default number of sides of tubes in a picture. If a section is a polygon, it is the number
-/// of its corners. `lies_close` is whether the yarns are flattened threads of woven cloth at rest.
-/// These get more sides than others, unless the cloth is so large that its threads are hardly wider
-/// than pixels. They lie so close that with fewer sides the ground would show past their corners.
+/// The default number of sides of tubes in a picture. If a yarn's section is a polygon, the default
+/// is the number of the polygon's corners. `lies_close` is whether the yarns are flattened threads
+/// of woven cloth at rest. These get more sides than others, unless the cloth is so large that its
+/// threads are hardly wider than pixels. They lie so close that with fewer sides the ground would
+/// show past their corners.
 ///
 /// **Units**: sides of a section, as in [`Settings::sides`].
 #[must_use]
@@ -96,7 +97,7 @@ impl Picture {
     }
 }
 
-/// The time that each stage of a picture took. Stages follow one another.
+/// The time that each stage of a picture took. A stage begins when the stage before it has ended.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PictureTimings {
     /// The time before drawing: for allocating textures, if the picture before had another size,
@@ -104,15 +105,15 @@ pub struct PictureTimings {
     pub screen: Duration,
     /// The time for finding what each sample shows, chunk after chunk.
     pub draw: Duration,
-    /// The time for visibility and light.
+    /// The time for working out visibility (ambient occlusion and shadows) and light.
     pub shade: Duration,
     /// The time for the copy to the host.
     pub copy: Duration,
 }
 
-/// A fabric on a device, as control points and tables. A picture needs no mesh, but memory for its
-/// samples: eight bytes each while they are found, and 25 until pixels are made from them. The
-/// renderer keeps that memory for the next scene.
+/// A fabric on a device, as control points and tables. A picture needs no mesh. It needs memory for
+/// its samples: eight bytes for the nearest triangle of each sample, and 25 bytes for what the
+/// sample shows and for its light. The renderer keeps that memory for the next scene.
 #[derive(Debug)]
 pub struct Scene {
     pub(crate) renderer: Renderer,
@@ -127,7 +128,8 @@ pub struct Scene {
     pub(crate) view: wgpu::Buffer,
     background: Background,
     pub(crate) screen: Option<Arc<Screen>>,
-    /// Whether the last picture has no visibility, as [`ViewUniform::is_far`] says.
+    /// Whether the last picture was lit without ambient occlusion and shadows
+    /// ([`ViewUniform::is_far`]).
     is_far: bool,
     /// The camera of the last picture.
     pub(crate) camera: Option<Camera>,
@@ -190,8 +192,8 @@ impl Renderer {
         })
     }
 
-    /// The scene of `yarns` where `settler` has placed them. If the settler is on this renderer's
-    /// device, they do not go through the host. Which yarns are
+    /// A scene that shows `yarns` in the places to which `settler` has moved them. If the settler
+    /// is on this renderer's device, the places do not go through the host. Which yarns are
     /// [steep](texere_core::Layout::is_steep), and how outlines [lean](texere_core::Layout::ups),
     /// remains as in `yarns`.
     ///
@@ -433,8 +435,10 @@ impl Scene {
             for band in screen.bands() {
                 let drawn = raster.draw(renderer, &pipelines, tables, chunk, screen, band)?;
                 // No more than two chunks are in progress, so that each wait is for one chunk and
-                // not for a whole fabric. On a CPU the driver's call that submits a second one only
-                // returns when the first is done, so that the caller could not end it.
+                // not for a whole fabric. If the device is a CPU, the driver's call that submits a
+                // second chunk returns only when the first chunk is done, and the caller could not
+                // stop the work meanwhile. Each chunk is then waited for before the next is
+                // submitted.
                 let waited = if is_cpu { Some(drawn) } else { before.replace(drawn) };
                 if let Some(submission) = waited {
                     watch.wait(&renderer.device, &submission)?;

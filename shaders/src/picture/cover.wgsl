@@ -1,32 +1,38 @@
-// Corners on the screen, and the samples that a quad may cover. This file follows fabric.wgsl and
-// either keys_64.wgsl or keys_32.wgsl.
+// Corners on the screen, and the samples that a quad may cover. Places on the screen are counted in
+// units of 1/256 pixel, x to the right and y down. This file follows fabric.wgsl and either
+// keys_64.wgsl or keys_32.wgsl.
 
 const SUBPIXELS = 256.0;
 
-// The greatest distance of a corner from the screen's middle, 1/256 pixels. Edges are exact up to
-// there.
+// The greatest distance of a corner from the screen's middle along x and y, in units of 1/256
+// pixel. Up to this distance `rounded` gives exact numbers, and `long_cross` of draw.wgsl tests
+// edges exactly.
 const REACHED = 4194304.0;
 
-// The edges of a quad that is less than this many 1/256 pixels wide and high fit in 32 bits.
+// If a quad is less wide and less high than this, in units of 1/256 pixel, the products that test
+// its edges fit in 32 bits.
 const EXTENT = 32768;
 
-// A quad whose box has more samples than this is left to a whole workgroup.
+// A quad is drawn by one lane if its box has this many samples or fewer, otherwise by a whole
+// workgroup.
 const ALONE = 512;
 
 // A corner on the screen.
 struct Corner {
-    // 1/256 pixels right of the middle and below it.
+    // How far the corner lies right of the screen's middle and below it, in units of 1/256 pixel.
     place: vec2<i32>,
     depth: f32,
-    // A bit for each side of the view beyond which the corner lies, and BEYOND.
+    // A bit for each side of the view beyond which the corner lies. The bit BEYOND is set if the
+    // corner has no place.
     sides: u32,
 }
 
-// Marks a corner without a place: it lies behind the eye or too far aside.
+// The bit of a corner without a place. Such a corner lies behind the eye, or farther aside than
+// REACHED.
 const BEYOND = 64u;
 
-// The point of clip space `clip` in screen space. Divided by w, its x and y are 1/256 pixels from
-// the screen's middle, with y downwards.
+// The point of clip space `clip` in screen space. Its x and y, divided by its w, are the distances
+// from the screen's middle to the right and down, in units of 1/256 pixel.
 fn screen_of(clip: vec4<f32>) -> vec4<f32> {
     return clip * screen_scale();
 }
@@ -36,8 +42,8 @@ fn screen_scale() -> vec4<f32> {
 }
 
 // Floats near 3 * 2^22 lie 1 apart. A sum with ROUNDER is therefore rounded to a whole number, and
-// the bits of the float, less ROUNDER_BITS, are that number. A GPU takes eight times as long for a
-// conversion.
+// the bits of the float, less ROUNDER_BITS, are that number. Many GPUs take several times as long
+// to convert a float to an integer as to add.
 const ROUNDER = 12582912.0;
 const ROUNDER_BITS = 0x4b400000;
 
@@ -46,14 +52,14 @@ fn rounded(place: vec2<f32>) -> vec2<i32> {
     return bitcast<vec2<i32>>(place + ROUNDER) - ROUNDER_BITS;
 }
 
-// The place of a corner in screen space, in whole numbers of 1/256 pixels.
+// The place of a corner in screen space, in whole units of 1/256 pixel.
 fn place_of(xy: vec2<f32>, w: f32) -> vec2<f32> {
     // In a parallel view w is 1 everywhere.
     if view.eye.w == 0.0 {
         return (xy + ROUNDER) - ROUNDER;
     }
-    // The sum is not used here: a compiler might fuse it with the product in one place and not in
-    // another, and the results would differ.
+    // ROUNDER is not added here. A compiler might fuse the addition with the product in one shader
+    // and not in another, and the results would differ.
     return round(xy * (1.0 / w));
 }
 
@@ -73,35 +79,38 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
         return;
     }
     let sample = key_at(u32(x), u32(row >> 2u) - sweep.first_row, u32(row & 3));
-    // Keys are complements. The greatest key belongs to the nearest triangle, and if several are
-    // equally near, to the first of them.
+    // Depth and number are passed as complements, so that the greatest key belongs to the nearest
+    // triangle. If several triangles are equally near, it belongs to the one of the lowest number.
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// The sizes of quads, a bit for each. A quad is NONE if no pixel lies in its box, SMALL if at most
-// two by two pixels do, FEW if the box has at most about ALONE samples, and otherwise MANY. A quad
-// with a corner beyond REACHED is MANY.
+// The sizes of quads, as bits. A quad is NONE if it does not show or if its box meets no pixel of
+// the band, SMALL if the box meets at most two by two pixels, FEW if these pixels have about ALONE
+// samples or fewer, and otherwise MANY. A quad with a corner beyond REACHED is MANY.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
 const MANY = 4u;
 
-// Whether a triangle shows, from twice its area on the screen. Outsides show, and insides if the
-// view may see them. Outsides are counter-clockwise with y upwards, so their areas are below 0.
+// Whether a triangle shows, given twice its area as `area_of` counts it. The outside of a tube
+// shows; the inside shows only if the view may see insides. Seen from outside, the corners of a
+// triangle go round counter-clockwise. Because y points down here, the area is then below 0.
 fn is_seen(area: f32) -> bool {
     return area < 0.0 || (area > 0.0 && view.sees_inside != 0u);
 }
 
-// Twice the area of a triangle on the screen. Only its sign matters, which rounding can change only
-// if edges are as long as the screen.
+// Twice the area of a triangle on the screen. Only the sign of the area matters. Rounding can
+// change the sign only if an edge is longer than 16 pixels and the triangle is thinner than 1/256
+// pixel.
 fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
     let pq = vec2<f32>(q.place - p.place);
     let pr = vec2<f32>(r.place - p.place);
     return pq.x * pr.y - pq.y * pr.x;
 }
 
-// Whether a triangle of corners less than EXTENT apart may show. Rounding makes its area wrong by
-// less than 256, so triangles smaller than that count as seen.
+// Whether a triangle may show whose corners are less than EXTENT apart. Twice its area, in units of
+// 1/65,536 square pixel, has an error of less than 256 from rounding. A triangle therefore counts
+// as seen even if that number is above 0, up to 256.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;
@@ -116,7 +125,7 @@ struct Quad {
     s: Corner,
 }
 
-// Whether one of the quad's triangles p q r and q s r may show.
+// Whether the quad's triangle p q r or its triangle q s r may show.
 fn may_show(quad: Quad) -> bool {
     if (quad.p.sides & quad.q.sides & quad.r.sides & quad.s.sides & ~BEYOND) != 0u {
         return false;
@@ -140,8 +149,10 @@ fn highest(quad: Quad) -> vec2<i32> {
     return max(max(quad.p.place, quad.q.place), max(quad.r.place, quad.s.place));
 }
 
-// The box round a quad, 1/256 pixels from the screen's upper left corner, and the band's pixels in
-// it. If the quad does not show, it has no pixels.
+// The box round a quad, from `least` to `most`, in units of 1/256 pixel from the screen's upper
+// left corner. `first` and `last` are the first and the last pixel of the band that the box meets.
+// The band is the rows of pixels that this sweep draws. If the quad does not show, `last` lies
+// before `first`.
 struct QuadBox {
     least: vec2<i32>,
     most: vec2<i32>,
@@ -154,20 +165,21 @@ fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBo
     if !(near_may_show(p, q, r) | near_may_show(q, s, r) | (view.sees_inside != 0u)) {
         return QuadBox(vec2(0), vec2(0), vec2(0), vec2(-1));
     }
-    // The box is 1/256 pixel larger each way, because a compiler may round differently where the
-    // quad is drawn.
+    // The box is 1/256 pixel larger each way. The corners are worked out again when the quad is
+    // drawn, and a compiler may round them differently there.
     let least = rounded(min(min(p, q), min(r, s))) + (middle() - 1);
     let most = rounded(max(max(p, q), max(r, s))) + (middle() + 1);
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
-// A box that is 1/256 pixel larger each way, for a pass that must find every quad that another pass
-// has left to it. A compiler may round differently there. A quad that is drawn twice does no harm.
+// A box with the pixels of a box that is 1/256 pixel larger each way. `raster_few` uses it to find
+// every quad that `raster` has left to it, even if a compiler rounds differently in the two passes.
+// A quad that both passes draw does no harm.
 fn wider(box: QuadBox) -> QuadBox {
     return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
 }
 
-// The size of a quad with this box. Quads of up to `alone` samples are FEW.
+// The size of a quad with this box. `alone` is the most samples of a FEW quad.
 fn size_of(box: QuadBox, alone: i32) -> u32 {
     let across = box.last - box.first;
     if min(across.x, across.y) < 0 {
@@ -197,12 +209,14 @@ fn samples_of(box: QuadBox) -> u32 {
     return samples;
 }
 
-// The first pixel of the band from `least` on, 1/256 pixels from the screen's upper left corner.
+// The column and the row of the first pixel of the band that a box meets. `least` is the box's
+// upper left corner, in units of 1/256 pixel from the screen's upper left corner.
 fn first_pixel(least: vec2<i32>) -> vec2<i32> {
     return max(least >> vec2(8u), vec2(0, i32(sweep.first_row)));
 }
 
-// The last pixel of the band up to `most`, 1/256 pixels from the screen's upper left corner.
+// The column and the row of the last pixel of the band that a box meets. `most` is the box's lower
+// right corner, in units of 1/256 pixel from the screen's upper left corner.
 fn last_pixel(most: vec2<i32>) -> vec2<i32> {
     return min(most >> vec2(8u), vec2(i32(view.size.x) - 1, i32(sweep.first_row + sweep.rows) - 1));
 }
@@ -215,7 +229,8 @@ fn samples_between(least: vec2<i32>, most: vec2<i32>, pixel: vec2<i32>) -> u32 {
     return bits_of((vec4(low.x) <= at.x) & (at.x <= vec4(high.x)) & (vec4(low.y) <= at.y) & (at.y <= vec4(high.y)));
 }
 
-// The four samples of a pixel, 1/256 pixels right of its corner and below it.
+// The four samples of a pixel: how far each lies right of the pixel's upper left corner and below
+// it, in units of 1/256 pixel.
 struct Four {
     x: vec4<i32>,
     y: vec4<i32>,

@@ -206,8 +206,8 @@ struct Lanes {
     rows: i32,
 }
 
-// The part of a row of samples that may lie inside a triangle: from `x` to `y`, 1/256 pixels right
-// of the screen's middle.
+// The part of a row of samples that may lie inside a triangle: from `x` to `y`, in units of 1/256
+// pixel right of the screen's middle.
 fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     // Samples with shifts lie anywhere in the row.
     let is_shifted = view.spread > 0.0;

@@ -49,12 +49,12 @@ fn side_beside(side: u32) -> u32 {
     return select(side + 1u, 0u, side + 1u == params.sides);
 }
 
-// The screen's middle, 1/256 pixels from its left and upper edges.
+// The distance of the screen's middle from its left and upper edges, in units of 1/256 pixel.
 fn middle() -> vec2<i32> {
     return vec2<i32>(view.size * 128.0);
 }
 
-// A sample of pixel `x` in row `row`, in 1/256 pixels from the middle.
+// A sample of pixel `x` in row `row`, in units of 1/256 pixel from the middle.
 fn sample_place(x: i32, row: i32) -> vec2<i32> {
     let pixel = vec2(x, row >> 2u);
     return pixel * 256 + sample_in(pixel, row & 3) - middle();

@@ -30,7 +30,7 @@ fn note_hairs(block: Block, ring: u32) {
     }
 }
 
-// Half a fibre's width at a depth of clip space, 1/256 pixels.
+// Half a fibre's width at a depth of clip space, in units of 1/256 pixel.
 fn half_width_at(w: f32) -> f32 {
     let rows = view.clip_from_local;
     let pixels_of_mm = 0.5 * view.size.y * length(vec3(rows[0].y, rows[1].y, rows[2].y)) / w;

@@ -73,7 +73,7 @@ fn are_near(one: Disc, other: Disc) -> bool {
     return max(farthest.x, farthest.y) + reach < REACHED && max(apart.x, apart.y) + reach < f32(EXTENT) - 2.0;
 }
 
-// The place of a corner in whole numbers of 1/256 pixels.
+// The place of a corner in whole units of 1/256 pixel.
 fn near_place(axes: Axes, point: vec2<f32>) -> vec2<f32> {
     let xyw = axes.centre.xyw + (axes.x.xyw * point.x + axes.y.xyw * point.y);
     return place_of(xyw.xy, xyw.z);

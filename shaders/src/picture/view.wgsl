@@ -70,13 +70,14 @@ fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     return vec2<i32>(vec2(hash >> 24u, (hash >> 18u) & 63u));
 }
 
-// The place of sample `sample` in a pixel without a shift, 1/256 pixels right of the pixel's left
-// edge.
+// The place of sample `sample` in a pixel without a shift, in units of 1/256 pixel right of the
+// pixel's left edge.
 fn sample_x(sample: i32) -> i32 {
     return i32((SAMPLE_X >> (8u * u32(sample))) & 255u);
 }
 
-// A sample's place in its pixel, 1/256 pixels right of the pixel's corner and below it.
+// A sample's place in its pixel, in units of 1/256 pixel right of the pixel's upper left corner and
+// below it.
 fn sample_in(pixel: vec2<i32>, sample: i32) -> vec2<i32> {
     let place = vec2(sample_x(sample), FIRST_SAMPLE_Y) + shift_of(pixel);
     return vec2(0, sample * SAMPLE_ROW) + (place & vec2(255, SAMPLE_ROW - 1));

@@ -2,7 +2,7 @@
 // fabric.wgsl.
 
 // Weights that are right in perspective, up to a factor: for corners in clip space, and a place in
-// 1/256 pixels from the screen's middle.
+// units of 1/256 pixel from the screen's middle.
 fn weights_at(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, place: vec2<i32>) -> vec3<f32> {
     let ndc = vec2<f32>(place) * vec2(2.0, -2.0) / (256.0 * view.size);
     let to_p = p.xy - ndc * p.w;

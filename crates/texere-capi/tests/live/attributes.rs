@@ -1,4 +1,4 @@
-//! Attributes of live cloth are those of its yarns, on every device.
+//! Attributes of live cloth equal those that a plan of its yarns makes, on every device.
 
 use std::ptr::null;
 
@@ -32,7 +32,7 @@ fn drawn(draws: &[texere_draw], indices: &[u32], attributes: &[texere_attribute]
     draws.iter().map(corners).collect()
 }
 
-/// Those of a plan of the yarns as they are now.
+/// The attributes that a plan of the live cloth's yarns, as they are now, makes.
 fn planned(live: *const texere_live, device: *const texere_device) -> Vec<Vec<[u32; 6]>> {
     let (mut counts, mut draws): (texere_counts, _) = (sized(), null());
     // SAFETY: all pointers are those of values that live as long as the calls.
@@ -51,7 +51,7 @@ fn planned(live: *const texere_live, device: *const texere_device) -> Vec<Vec<[u
     }
 }
 
-/// Those of the live cloth, whose attributes have been read.
+/// The attributes of the live cloth as its mesh draws them. `attributes` has been read from it.
 fn lived(live: *const texere_live, attributes: &[texere_attribute]) -> Vec<Vec<[u32; 6]>> {
     let mut mesh = Mesh::default();
     read(live, &mut mesh);
@@ -85,7 +85,8 @@ fn attributes_of_live_cloth_are_those_of_a_plan_of_its_yarns() {
         done(c!(texere_live_attributes(live, null(), &view(&mut all))));
         assert!(lived(live, &all) == planned(live, device), "{name}: other attributes");
 
-        // What an edit changes, and no more, makes these attributes those of the edited yarns.
+        // After an edit, only the attributes in the ranges that the update reports are read again.
+        // All attributes then equal those of the edited yarns.
         done(c!(texere_live_set_lift(live, 7, 3, 0)));
         let (changes, anew) = update(live);
         assert!(!anew && !changes.is_empty(), "{name}");

@@ -54,7 +54,7 @@ pub(super) enum Points<'a> {
 /// ```
 pub struct Run<'a> {
     plan: Arc<Plan>,
-    /// Those that chunks are cut to.
+    /// The limits to which chunks are cut.
     limits: Limits,
     session: Session,
     progress: OnProgress<'a>,

@@ -10,8 +10,8 @@ pub enum Backing {
     /// Every other needle knits, alternating from yarn to yarn and from row to row. The back shows
     /// flecks of all yarns.
     Birdseye,
-    /// Each of the n yarns of a row knits on every n-th needle, and always on the same needles. The
-    /// back is light, with upright lines.
+    /// Each of the n yarns of a row knits on every n-th needle, and on the same needles in all rows
+    /// that have the same yarns. The back is light, with upright lines.
     Ladder,
 }
 

@@ -44,12 +44,14 @@ pub struct WovenRest {
     pub bend: f64,
     /// Number of rounds in which threads were made thinner.
     pub rounds: u32,
-    /// The share of its area that each set keeps, as the mean over all crossings.
+    /// The share of their cross-section's area that threads of each set keep, as the mean over all
+    /// crossings.
     pub area: BySet<f64>,
-    /// The share of its area that each set keeps at its worst crossing.
+    /// The share of their cross-section's area that threads of each set keep at the set's worst
+    /// crossing.
     pub area_least: BySet<f64>,
-    /// The share of its area that each set lost when threads were made thinner, as the mean over
-    /// all crossings.
+    /// The share of their cross-section's area that threads of each set lost when threads were made
+    /// thinner, as the mean over all crossings.
     pub area_lost: BySet<f64>,
 }
 

@@ -58,8 +58,8 @@ impl RestingRepeat {
         self.repeat
     }
 
-    /// For each set, the share of its area that it keeps: the mean over all crossings, and the
-    /// least.
+    /// For each set, the share of their cross-section's area that threads keep: the mean over all
+    /// crossings, and the least.
     pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
         BySet { warp: 0, weft: 1 }.map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];

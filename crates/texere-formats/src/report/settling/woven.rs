@@ -19,25 +19,27 @@ pub(crate) struct WovenRestReport {
     passes: u32,
     /// Number of ends and picks of the repeat that has settled.
     repeat: Sets<usize>,
-    /// The least clearance of surfaces as drawn, before threads were made thinner where they lacked
-    /// clearance.
+    /// The least clearance of the threads' surfaces as they are drawn, before threads that lacked
+    /// clearance were made thinner.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance_before: f64,
-    /// The least clearance of surfaces as drawn, at rest.
+    /// The least clearance of the threads' surfaces as they are drawn, at rest.
     #[serde(serialize_with = "as_near_as_looked")]
     pub(super) clearance: f64,
     /// How many times threads were made thinner.
     rounds: u32,
-    /// The area that the threads of each set keep, as a share of their full area.
+    /// The area of the threads' cross-sections in each set, as a share of the area that the design
+    /// gives them.
     area: Sets<AreaReport>,
 }
 
-/// The area that the threads of a set keep.
+/// The area of the cross-sections of a set's threads, as a share of the area that the design gives
+/// them: the mean over all crossings, and the least.
 #[derive(Debug, Serialize)]
 struct AreaReport {
     mean: f64,
     least: f64,
-    /// The mean share that threads lost when they were made thinner for clearance.
+    /// The mean share that was lost when threads were made thinner for clearance.
     lost: f64,
 }
 

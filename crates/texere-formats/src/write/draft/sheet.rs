@@ -140,8 +140,8 @@ impl<'a> Sheet<'a> {
         header.finish()
     }
 
-    /// Paints row `y` of the sheet, counted from the top, into `pixels`, which have the colour of
-    /// paper before.
+    /// Paints row `y` of the sheet, counted from the top, into `pixels`, which are all [`PAPER`]
+    /// before the call.
     fn paint(&self, y: usize, pixels: &mut [Rgb]) {
         for block in &self.blocks {
             let [left, top] = block.place;

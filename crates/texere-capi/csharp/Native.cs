@@ -423,7 +423,7 @@ namespace Texere
         /// <summary>
         ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
         ///  design asks for it. `run` may be null.
-        /// 
+        ///
         ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
         ///  did. Threads of woven cloth that can't settle at all stay where the structure places them. The
         ///  call fails with TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with
@@ -452,7 +452,7 @@ namespace Texere
         /// <summary>
         ///  Lends warning `number` of a cloth, counted from 0: writes the address of the warning's text to
         ///  `words`. The text is UTF-8 that ends with a zero byte, valid until the cloth is freed.
-        /// 
+        ///
         ///  Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_warning", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -475,7 +475,7 @@ namespace Texere
         ///  knitting machine (`.k`).
         ///
         ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
-        ///  design; `texere_error_place` then says where it is at fault.
+        ///  design; `texere_error_place` then says where the file is at fault.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_read", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_read(byte* path, System.UIntPtr path_length, texere_design** @out);
@@ -503,13 +503,13 @@ namespace Texere
         internal static extern texere_status texere_design_write(texere_design* design, byte* path, System.UIntPtr path_length);
 
         /// <summary>
-        ///  Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
-        ///  `texere_design_write` writes. `format` is a constant whose name begins with
+        ///  Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+        ///  `texere_design_write` would write. `format` is a constant whose name begins with
         ///  TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
         ///  argument.
         ///
         ///  Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-        ///  number other than 0. The bytes that came before then are not a complete file.
+        ///  number other than 0. The bytes that the callback had been given by then are not a complete file.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_write_to(texere_design* design, uint format, texere_design_write_to_callback_delegate callback, void* user);

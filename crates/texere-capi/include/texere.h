@@ -1357,7 +1357,7 @@ void texere_cloth_free(struct texere_cloth *cloth);
 // knitting machine (`.k`).
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
-// design; `texere_error_place` then says where it is at fault.
+// design; `texere_error_place` then says where the file is at fault.
 enum texere_status texere_design_read(const char *path,
                                       size_t path_length,
                                       struct texere_design **out);
@@ -1386,13 +1386,13 @@ enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
-// Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
-// `texere_design_write` writes. `format` is a constant whose name begins with
+// Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+// `texere_design_write` would write. `format` is a constant whose name begins with
 // TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
 // argument.
 //
 // Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-// number other than 0. The bytes that came before then are not a complete file.
+// number other than 0. The bytes that the callback had been given by then are not a complete file.
 enum texere_status texere_design_write_to(const struct texere_design *design,
                                           uint32_t format,
                                           texere_write_callback callback,

@@ -42,7 +42,7 @@ pub type texere_file_callback = Option<
 /// knitting machine (`.k`).
 ///
 /// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
-/// design; `texere_error_place` then says where it is at fault.
+/// design; `texere_error_place` then says where the file is at fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_read(
     path: *const c_char,
@@ -133,13 +133,13 @@ pub const TEXERE_DESIGN_FORMAT_TOML: u32 = 0;
 /// The form of a WIF 1.1 draft, `.wif`.
 pub const TEXERE_DESIGN_FORMAT_WIF: u32 = 1;
 
-/// Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
-/// `texere_design_write` writes. `format` is a constant whose name begins with
+/// Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+/// `texere_design_write` would write. `format` is a constant whose name begins with
 /// TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
 /// argument.
 ///
 /// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-/// number other than 0. The bytes that came before then are not a complete file.
+/// number other than 0. The bytes that the callback had been given by then are not a complete file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_write_to(
     design: *const texere_design,

@@ -157,7 +157,7 @@ impl<T: Copy> Strided<'_, T> {
             .then(|| unsafe { std::slice::from_raw_parts_mut(self.first, self.count) })
     }
 
-    /// Writes the values from number `first` on.
+    /// Writes `values` to the view, the first of them to place number `first`.
     ///
     /// **Panics** past the last value.
     pub(crate) fn write(&mut self, first: usize, values: impl IntoIterator<Item = T>) {

@@ -84,7 +84,7 @@ pub(crate) fn weft_knit(
 /// <texere.Bar 1-0/2-3//>
 ///
 /// Raises :class:`texere.Error` for a text that is no chain, TypeError and ValueError for an array
-/// that is none.
+/// that is no chain.
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Bar {

@@ -8,10 +8,10 @@ use texere::yarn::{COTTON_DENSITY, Material, Section, diameter_mm, twist_from_tu
 
 /// A yarn as it lies on the bobbin: what a design in code is made of.
 ///
-/// ``diameter_mm`` is that of the round yarn. Without it, it follows from ``tex`` (g/km) and
-/// ``density`` (g/cm³, that of cotton yarn if not given). ``twist_per_m`` is turns per metre, above
-/// 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to 255, sRGB. ``section`` is
-/// ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect, distortion)``,
+/// ``diameter_mm`` is the diameter of the round yarn. If it is not given, it is computed from
+/// ``tex`` (g/km) and ``density`` (g/cm³, by default that of cotton yarn). ``twist_per_m`` is turns
+/// per metre, above 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to 255, sRGB.
+/// ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect, distortion)``,
 /// ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness`` (width over height
 /// in the cloth, 0.1 to 10) and ``stiffness`` (0.01 to 100, 1 for cotton) count in woven cloth
 /// alone. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
@@ -19,8 +19,8 @@ use texere::yarn::{COTTON_DENSITY, Material, Section, diameter_mm, twist_from_tu
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>
 ///
-/// Raises ValueError for a colour, a section or a thickness that is none. Limits are checked when
-/// cloth is made of the yarn.
+/// Raises ValueError if the colour, the section or the thickness is not valid. Limits are checked
+/// when cloth is made of the yarn.
 #[pyclass(frozen, module = "texere", name = "Yarn")]
 #[derive(Debug)]
 pub(crate) struct YarnSpec {
@@ -173,7 +173,7 @@ impl Bobbins {
         self.yarns.iter().map(|(yarn, _)| *yarn).collect()
     }
 
-    /// A thread of a yarn by its number.
+    /// A thread of the yarn with number `number`, in a column of the cloth `spacing_mm` wide.
     pub(crate) fn thread(&self, number: usize, spacing_mm: f64) -> Thread {
         let (KnitYarn { radius_mm, material, section, twist }, [flatness, stiffness]) = self.yarns[number];
         Thread { spacing_mm, radius_mm, flatness, stiffness, material, section, twist }

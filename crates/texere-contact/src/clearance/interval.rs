@@ -78,7 +78,7 @@ impl Cubic {
         }
     }
 
-    /// Turn of the frame at `t` against the upright one, turns.
+    /// The angle from the upright frame at `t` to the interval's own frame at `t`, turns.
     pub(super) fn lean(&self, t: f64, tangent: DVec3) -> f64 {
         if self.ups.is_none() {
             return 0.0;
@@ -161,7 +161,7 @@ impl Cubic {
         self.half_bounds().into_iter().flatten().chain(self.floors).fold(0.0, f64::max)
     }
 
-    /// The length of the interval's Bézier polygon, an upper bound of its own length, mm.
+    /// An upper bound of the interval's length, mm: the length of its Bézier polygon.
     pub(super) fn length(&self) -> f64 {
         self.hull().windows(2).map(|ends| ends[0].distance(ends[1])).sum()
     }
@@ -171,7 +171,8 @@ impl Cubic {
         off_chord(self.hull())
     }
 
-    /// Upper bound of the squared distance between the interval and `count` chords, mm².
+    /// Upper bound of the squared distance between the interval and `count` chords of equal steps
+    /// of t, mm².
     pub(super) fn off_chords_squared(&self, count: usize) -> f64 {
         let [_, c1, c2, c3] = self.position;
         let step = 1.0 / count as f64;
@@ -188,7 +189,8 @@ impl Cubic {
             most = most.max(apart(leaving)).max(apart(chord - arriving));
             (start, leaving) = (end, arriving);
         }
-        // The inner two of the four Bézier weights add up to 3/4 at most.
+        // The inner two of the four Bézier weights add up to 3/4 at most; 0.5625 is the square of
+        // 3/4.
         0.5625 * most
     }
 }

@@ -6,8 +6,9 @@ use crate::backend::room;
 /// The largest distance, in threads, at which threads of one level count as neighbours.
 const BESIDE_MAX: i32 = 16;
 
-/// The largest shift sideways: a quarter of a unit, or two fifths of the distance to the nearer
-/// neighbour if that is less. Without bounds, threads pass through one another.
+/// The bounds of a thread's shift sideways: a quarter of the plan's unit, and two fifths of the
+/// distance to the nearer neighbour. The smaller of the two holds. Without bounds, threads pass
+/// through one another.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// A thread. Lengths are in the plan's unit.
@@ -21,9 +22,9 @@ pub struct Row {
     pub stiffness: f32,
     /// The largest shift to either side.
     pub freedom: f32,
-    /// The largest height, up or down.
+    /// The largest height of the thread above or below the middle of the cloth.
     pub height: f32,
-    /// The thread's level.
+    /// The thread's level ([`CrossingThread::level`]).
     pub level: i32,
     /// The distances, in threads, to the nearest thread of the same level before and after this
     /// one. A distance is 0 if there is no such thread within 16 threads.

@@ -37,10 +37,12 @@ pub struct Loom {
     cloth: Woven,
     measured: Measured,
     passes: Vec<Pass>,
-    /// The passes of each yarn.
+    /// For each yarn, the range of its passes in `passes`. A pass is one end, or one pick with the
+    /// turn that leads to it.
     yarns: Vec<Range<usize>>,
-    /// The path of the threads of each kind. It is computed once, because it does not depend on
-    /// lifts.
+    /// The crossings along the path of the threads of each kind. Threads of one kind have one
+    /// height and run in one direction. These tables are computed once, because they do not depend
+    /// on lifts.
     paths: BTreeMap<Kind, Arc<[Station]>>,
 }
 
@@ -66,7 +68,7 @@ impl Loom {
         &self.cloth
     }
 
-    /// The cloth as it is now, off the loom.
+    /// Takes the cloth, as it is now, off the loom.
     #[must_use]
     pub fn into_cloth(self) -> Woven {
         self.cloth

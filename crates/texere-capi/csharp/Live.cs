@@ -250,7 +250,7 @@ namespace Texere
         }
 
         /// <summary>Brings the edits to the mesh.</summary>
-        /// <param name="anew">Whether the whole mesh was begun anew, so that sizes and draws may have changed.</param>
+        /// <param name="anew">Whether a new mesh was made, so that sizes and draws may have changed.</param>
         /// <param name="run">Gets the progress, and can cancel the call.</param>
         /// <returns>The ranges that were made again. They are valid until the next update.</returns>
         public ReadOnlySpan<Change> Update(out bool anew, Run run = null)

@@ -240,7 +240,7 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_CELLS_EVEN = 1;
         /// <summary>
-        ///  Stands in `threading` of a bar for a guide without a yarn.
+        ///  The number that stands for no yarn in `threading` of a bar.
         /// </summary>
         internal const uint TEXERE_NO_YARN = 4294967295;
         /// <summary>
@@ -799,16 +799,16 @@ namespace Texere
         ///  for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
         ///  be null. The contents of the room between yarns are undefined.
         ///
-        ///  Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
-        ///  misaligned or null, and if `texere_live_update` has to be called first. Fails with
-        ///  TEXERE_CANCELLED if `run` was cancelled.
+        ///  Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
+        ///  `texere_live_update` has not been called since then and since the last edit, and for a view that
+        ///  is too small, misaligned or null. Fails with TEXERE_CANCELLED if `run` was cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_attributes", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_attributes(texere_live* live, texere_run* run, texere_view* attributes);
 
         /// <summary>
-        ///  Reads the attributes of the vertices of a range into the caller's memory, such as those of a
-        ///  change of the last update: as many as `change-&gt;vertex_count`.
+        ///  Reads the attributes of a range of vertices, for example a change of the last update, into the
+        ///  caller's memory: a `texere_attribute` for each of the `change-&gt;vertex_count` vertices.
         ///
         ///  Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
         ///  within the mesh.
@@ -1779,8 +1779,8 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 if the whole mesh was begun: in the first update, and for example after an edit by which a
-        ///  yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+        ///  1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
+        ///  outgrew its room. Sizes and draws may then have changed, and vertices may have other
         ///  numbers. Else 0.
         /// </summary>
         public uint anew;
@@ -2688,7 +2688,7 @@ namespace Texere
         /// </summary>
         public texere_lap* laps;
         /// <summary>
-        ///  How many laps, 1 to 4096. After the last one the first one follows again.
+        ///  How many laps, 1 to 4096. The first lap follows the last one again.
         /// </summary>
         public ulong lap_count;
         /// <summary>
@@ -2697,7 +2697,8 @@ namespace Texere
         /// </summary>
         public uint* threading;
         /// <summary>
-        ///  How many guides `threading` is for. After the last one it begins again.
+        ///  How many guides `threading` is for. The guides after them hold the same yarns again, from
+        ///  the first one of `threading` on.
         /// </summary>
         public ulong guide_count;
         /// <summary>
@@ -2730,8 +2731,8 @@ namespace Texere
         /// </summary>
         public uint rounds;
         /// <summary>
-        ///  The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
-        ///  from the first one knitted, and in each round from guide 0 on.
+        ///  The number of each cell's colour, counted from 0. There are `guides` times `rounds` cells:
+        ///  those of the round knitted first, from guide 0 on, then those of the next round.
         /// </summary>
         public byte* colors;
         /// <summary>
@@ -2739,9 +2740,10 @@ namespace Texere
         /// </summary>
         public ulong color_count;
         /// <summary>
-        ///  What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
-        ///  needles by which the beginning and the end of the lap are moved towards the high numbers.
-        ///  Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+        ///  Two numbers, each 0 or 1, for each colour at each lap of the chain. They are the needles by
+        ///  which the colour moves the beginning and the end of the lap towards the high numbers. The
+        ///  numbers of the first colour come first, lap after lap, 2 times `lap_count` of them; then
+        ///  those of the next colour.
         /// </summary>
         public byte* shifts;
     }
@@ -2761,11 +2763,13 @@ namespace Texere
         /// </summary>
         public uint cells;
         /// <summary>
-        ///  How many wales: a multiple of the number after which the threadings of all bars begin again.
+        ///  How many wales: a multiple of `guide_count` of every bar that has a threading, and of
+        ///  `guides` of every Jacquard.
         /// </summary>
         public uint wales;
         /// <summary>
-        ///  How many courses: a multiple of the number after which the chains of all bars begin again.
+        ///  How many courses: a multiple of `lap_count` of every bar, and for a Jacquard bar of
+        ///  `lap_count` times `rounds`.
         /// </summary>
         public uint courses;
         /// <summary>

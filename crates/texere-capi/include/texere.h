@@ -195,7 +195,7 @@
 // All stitches have the same number of control points.
 #define TEXERE_CELLS_EVEN 1
 
-// Stands in `threading` of a bar for a guide without a yarn.
+// The number that stands for no yarn in `threading` of a bar.
 #define TEXERE_NO_YARN 4294967295
 
 // The front needle knits.
@@ -562,8 +562,8 @@ typedef struct texere_change {
 typedef struct texere_update {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
-  // yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+  // 1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
+  // outgrew its room. Sizes and draws may then have changed, and vertices may have other
   // numbers. Else 0.
   uint32_t anew;
   // The ranges that were made again. They are valid until the next update of this live cloth, or
@@ -915,12 +915,13 @@ typedef struct texere_lap {
 typedef struct texere_bar {
   // Its chain: a lap for each course, from the first course knitted on.
   const struct texere_lap *laps;
-  // How many laps, 1 to 4096. After the last one the first one follows again.
+  // How many laps, 1 to 4096. The first lap follows the last one again.
   uint64_t lap_count;
   // The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
   // all guides have yarn 0.
   const uint32_t *threading;
-  // How many guides `threading` is for. After the last one it begins again.
+  // How many guides `threading` is for. The guides after them hold the same yarns again, from
+  // the first one of `threading` on.
   uint64_t guide_count;
   // Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
   double run_in_mm;
@@ -978,14 +979,15 @@ typedef struct texere_jacquard {
   uint32_t guides;
   // How many rounds of the chain the image is high.
   uint32_t rounds;
-  // The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
-  // from the first one knitted, and in each round from guide 0 on.
+  // The number of each cell's colour, counted from 0. There are `guides` times `rounds` cells:
+  // those of the round knitted first, from guide 0 on, then those of the next round.
   const uint8_t *colors;
   // How many colours there are, 1 to 256.
   uint64_t color_count;
-  // What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
-  // needles by which the beginning and the end of the lap are moved towards the high numbers.
-  // Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+  // Two numbers, each 0 or 1, for each colour at each lap of the chain. They are the needles by
+  // which the colour moves the beginning and the end of the lap towards the high numbers. The
+  // numbers of the first colour come first, lap after lap, 2 times `lap_count` of them; then
+  // those of the next colour.
   const uint8_t *shifts;
 } texere_jacquard;
 
@@ -995,9 +997,11 @@ typedef struct texere_warp_knit {
   uint32_t struct_size;
   // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
-  // How many wales: a multiple of the number after which the threadings of all bars begin again.
+  // How many wales: a multiple of `guide_count` of every bar that has a threading, and of
+  // `guides` of every Jacquard.
   uint32_t wales;
-  // How many courses: a multiple of the number after which the chains of all bars begin again.
+  // How many courses: a multiple of `lap_count` of every bar, and for a Jacquard bar of
+  // `lap_count` times `rounds`.
   uint32_t courses;
   // How many copies of these wales and courses lie along the courses, and how many along the
   // wales; each 1 or more.
@@ -1626,15 +1630,15 @@ enum texere_status texere_live_keep_attributes(const struct texere_live *live);
 // for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
 // be null. The contents of the room between yarns are undefined.
 //
-// Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
-// misaligned or null, and if `texere_live_update` has to be called first. Fails with
-// TEXERE_CANCELLED if `run` was cancelled.
+// Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
+// `texere_live_update` has not been called since then and since the last edit, and for a view that
+// is too small, misaligned or null. Fails with TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_live_attributes(const struct texere_live *live,
                                           const struct texere_run *run,
                                           const struct texere_view *attributes);
 
-// Reads the attributes of the vertices of a range into the caller's memory, such as those of a
-// change of the last update: as many as `change->vertex_count`.
+// Reads the attributes of a range of vertices, for example a change of the last update, into the
+// caller's memory: a `texere_attribute` for each of the `change->vertex_count` vertices.
 //
 // Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
 // within the mesh.

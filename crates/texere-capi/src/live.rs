@@ -76,8 +76,8 @@ pub struct texere_change {
 pub struct texere_update {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
-    /// yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+    /// 1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
+    /// outgrew its room. Sizes and draws may then have changed, and vertices may have other
     /// numbers. Else 0.
     pub anew: u32,
     /// The ranges that were made again. They are valid until the next update of this live cloth, or

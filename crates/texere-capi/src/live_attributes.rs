@@ -89,9 +89,9 @@ pub unsafe extern "C" fn texere_live_keep_attributes(live: *const texere_live) -
 /// for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
 /// be null. The contents of the room between yarns are undefined.
 ///
-/// Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
-/// misaligned or null, and if `texere_live_update` has to be called first. Fails with
-/// TEXERE_CANCELLED if `run` was cancelled.
+/// Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
+/// `texere_live_update` has not been called since then and since the last edit, and for a view that
+/// is too small, misaligned or null. Fails with TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_attributes(
     live: *const texere_live,
@@ -109,8 +109,8 @@ pub unsafe extern "C" fn texere_live_attributes(
     })
 }
 
-/// Reads the attributes of the vertices of a range into the caller's memory, such as those of a
-/// change of the last update: as many as `change->vertex_count`.
+/// Reads the attributes of a range of vertices, for example a change of the last update, into the
+/// caller's memory: a `texere_attribute` for each of the `change->vertex_count` vertices.
 ///
 /// Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
 /// within the mesh.

@@ -31,7 +31,7 @@ pub struct texere_lap {
     pub to: i32,
 }
 
-/// Stands in `threading` of a bar for a guide without a yarn.
+/// The number that stands for no yarn in `threading` of a bar.
 pub const TEXERE_NO_YARN: u32 = 4294967295;
 
 /// A guide bar.
@@ -40,12 +40,13 @@ pub const TEXERE_NO_YARN: u32 = 4294967295;
 pub struct texere_bar {
     /// Its chain: a lap for each course, from the first course knitted on.
     pub laps: *const texere_lap,
-    /// How many laps, 1 to 4096. After the last one the first one follows again.
+    /// How many laps, 1 to 4096. The first lap follows the last one again.
     pub lap_count: u64,
     /// The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
     /// all guides have yarn 0.
     pub threading: *const u32,
-    /// How many guides `threading` is for. After the last one it begins again.
+    /// How many guides `threading` is for. The guides after them hold the same yarns again, from
+    /// the first one of `threading` on.
     pub guide_count: u64,
     /// Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
     pub run_in_mm: f64,
@@ -64,14 +65,15 @@ pub struct texere_jacquard {
     pub guides: u32,
     /// How many rounds of the chain the image is high.
     pub rounds: u32,
-    /// The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
-    /// from the first one knitted, and in each round from guide 0 on.
+    /// The number of each cell's colour, counted from 0. There are `guides` times `rounds` cells:
+    /// those of the round knitted first, from guide 0 on, then those of the next round.
     pub colors: *const u8,
     /// How many colours there are, 1 to 256.
     pub color_count: u64,
-    /// What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
-    /// needles by which the beginning and the end of the lap are moved towards the high numbers.
-    /// Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+    /// Two numbers, each 0 or 1, for each colour at each lap of the chain. They are the needles by
+    /// which the colour moves the beginning and the end of the lap towards the high numbers. The
+    /// numbers of the first colour come first, lap after lap, 2 times `lap_count` of them; then
+    /// those of the next colour.
     pub shifts: *const u8,
 }
 
@@ -83,9 +85,11 @@ pub struct texere_warp_knit {
     pub struct_size: u32,
     /// A constant whose name begins with TEXERE_CELLS.
     pub cells: u32,
-    /// How many wales: a multiple of the number after which the threadings of all bars begin again.
+    /// How many wales: a multiple of `guide_count` of every bar that has a threading, and of
+    /// `guides` of every Jacquard.
     pub wales: u32,
-    /// How many courses: a multiple of the number after which the chains of all bars begin again.
+    /// How many courses: a multiple of `lap_count` of every bar, and for a Jacquard bar of
+    /// `lap_count` times `rounds`.
     pub courses: u32,
     /// How many copies of these wales and courses lie along the courses, and how many along the
     /// wales; each 1 or more.

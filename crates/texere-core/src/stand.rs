@@ -14,16 +14,17 @@ use crate::steep::{UPRIGHT_TURN, carried_steps, is_flat, runs_straight, upright_
 /// degrees. It is also the largest turn of the yarn's ups from control point to control point while
 /// they return to the upright frame.
 ///
-/// With 20 degrees, rings of a flat jersey turn by up to 34, because its tangents bend between two
-/// points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With a smaller angle,
-/// a quarter of a turn needs more points, and the sections of a flat yarn are out of the plane of
-/// their cloth for longer.
+/// With 20 degrees, rings of a flat jersey turn by up to 34 degrees, because its tangents bend
+/// between two points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With a
+/// smaller angle, a quarter of a turn needs more points, and the sections of a flat yarn are out of
+/// the plane of their cloth for longer.
 const HANDED_OVER: f32 = 15.0 / 360.0;
 
-/// The squared sine of the angle to z, 15 degrees, within which the upright frame of a flattened
-/// yarn does not count. In a binder that goes straight down through the cloth, tiny sideways moves
-/// decide the direction of that frame's side. Without this limit a binder turns on its way down,
-/// and is still turned where it lies level again (`a_flat_yarn_stands_upright_where_it_lies_flat`).
+/// The squared sine of 15 degrees. Where a flattened yarn runs nearer to z than this angle, its
+/// upright frame does not count. In a binder that goes straight down through the cloth, tiny
+/// sideways moves decide the direction of that frame's side. Without this limit a binder turns on
+/// its way down, and is still turned where it lies level again
+/// (`a_flat_yarn_stands_upright_where_it_lies_flat`).
 const NEAR_POLE: f32 = 0.067;
 
 /// The number of points before and after one lap of a closed yarn that the lap's ups depend on. In
@@ -96,8 +97,8 @@ fn handed_over(points: &[ControlPoint], closed: bool, tangents: &[Vec3]) -> Vec<
         })
         .collect();
     let turns = if closed && asked.iter().all(Option::is_none) {
-        // No point asks for a direction. The turn of a lap, less half turns, which leave an outline
-        // the same, is spread over the lap's points.
+        // No point asks for a direction. The turn of a lap is spread over the lap's points, after
+        // whole half turns are taken from it, because they leave an outline the same.
         let left = whole - (whole * 2.0).round() / 2.0;
         (0..laps * count)
             .map(|place| -whole * (place / count) as f64 - left * (place % count) as f64 / count as f64)

@@ -58,7 +58,7 @@ pub struct Live {
     set: BTreeMap<usize, SetYarn>,
     materials: Vec<Material>,
     mesh: LiveMesh,
-    /// Whether the mesh was begun since the last update.
+    /// Whether a new mesh was begun since the last update.
     anew: bool,
     /// The picker. It is made for the first ray, and dropped when a new mesh is begun.
     picker: Option<Picker>,
@@ -90,8 +90,8 @@ enum Source {
 pub struct Update {
     /// The vertices and indices that were made again, chunk by chunk.
     pub changes: Vec<Change>,
-    /// Whether the mesh was begun, in other buffers and with other chunks: in the first update, and
-    /// after a yarn has outgrown its room, for example.
+    /// Whether a new mesh was made, in other buffers and with other chunks: in the first update,
+    /// and for example after a yarn has outgrown its room.
     pub anew: bool,
 }
 

@@ -32,7 +32,7 @@ pub enum FinishError {
         asked: &'static str,
     },
     /// Woven cloth that can't be made as long as was asked for while its threads keep their
-    /// lengths. The threads would be straight before, or the cloth would jam before.
+    /// lengths: threads are straight, or the cloth jams, before it is that long.
     #[error(
         "cloth can't be {by} times as long along its {along} while its threads keep their lengths: these are straight at {most:.4}, and jam where it draws in too far"
     )]

@@ -69,7 +69,8 @@ pub struct Threading {
 }
 
 impl Threading {
-    /// A threading in which every guide holds the same yarn, an index into the cloth's yarns.
+    /// A threading in which every guide holds the same yarn. `yarn` is an index into the cloth's
+    /// yarns.
     #[must_use]
     pub fn full(yarn: u32) -> Self {
         Self { guides: vec![Some(yarn)] }
@@ -160,7 +161,7 @@ impl Displacements {
         self.size
     }
 
-    /// Courses of one row of the image.
+    /// The number of courses for which one row of the image counts: the laps of the chain.
     #[must_use]
     pub fn courses(&self) -> usize {
         self.palette[0].len()

@@ -2,17 +2,19 @@
 
 use super::{BySet, Drawdown};
 
-/// How many crossing threads have to pass below a thread and above the next one, for each crossing
-/// thread that passes the other way, so that the first thread counts as lying above the second. The
-/// crossing threads that pass the other way are then stitches of a double cloth.
+/// The least ratio of crossing threads at which one of two neighbouring threads counts as lying
+/// above the other. Of the crossing threads that pass between the two, at least this many must pass
+/// below the upper thread and above the lower one for each one that passes the other way. The
+/// others are then stitches of a double cloth.
 const STITCHED: u64 = 4;
 
-/// The most neighbouring threads of one level in a cloth of several layers. A longer run is a
-/// stripe: a satin stripe lies higher than the plain weave beside it, but not over it.
+/// The longest run of neighbouring threads of one level in a cloth of several layers. A longer run
+/// is a stripe: a satin stripe lies higher than the plain weave beside it, but not over it.
 const SIDE_BY_SIDE: usize = 4;
 
-/// The least share of neighbours that lie above one another in a cloth of several layers. In a
-/// cloth with three threads of the face to one of the back this share is a half.
+/// The least share of pairs of neighbours in which one thread lies above the other, in a cloth of
+/// several layers. In a cloth with three threads of the face to one of the back this share is a
+/// half.
 const STACKED: f64 = 0.4;
 
 /// The most passes in the search for levels. A cloth with this number of levels needs no more. If
@@ -34,11 +36,12 @@ impl Drawdown {
     ///
     /// A pick lies above the next one if ends pass between the two, below the first pick and above
     /// the second. If about as many ends pass the other way, as in plain weave, twills and satins,
-    /// both picks lie side by side. Stitches between two layers, at most one in five of these ends,
-    /// don't count. Ends are compared in the same way. More than four threads side by side are a
-    /// stripe, which lies neither above its neighbours nor below them. All threads lie side by side
-    /// if neighbours contradict one another round the cloth, or if fewer than two in five
-    /// neighbours lie above one another.
+    /// both picks lie side by side. If at most one in five of the ends between the two pass the
+    /// other way, they are stitches between two layers and do not count. Ends are compared in the
+    /// same way. More than four threads side by side are a stripe, which lies neither above its
+    /// neighbours nor below them. All threads lie side by side if neighbours contradict one another
+    /// round the cloth, or if in fewer than two of five pairs of neighbours one thread lies above
+    /// the other.
     ///
     /// ```
     /// use texere_fabric::{Drawdown, Weave};
@@ -84,9 +87,9 @@ const fn neighbours([first, second]: [u64; 2]) -> Neighbours {
     }
 }
 
-/// The lowest levels that agree with all neighbours; 0 for all threads if no levels do, or if too
-/// few neighbours lie above one another. The last thread and the first one count as neighbours only
-/// if one of them lies above the other, because a cloth need not repeat.
+/// The lowest levels that agree with all neighbours; 0 for all threads if no levels agree with all,
+/// or if in too few pairs of neighbours one lies above the other. The last thread and the first one
+/// count as neighbours only if one of them lies above the other, because a cloth need not repeat.
 fn levels(neighbours: &[Neighbours]) -> Vec<u32> {
     let count = neighbours.len();
     // Threads side by side form runs: the number of each thread's run, and the length of each run.

@@ -97,7 +97,8 @@ impl Lists {
         });
         let listed: Result<(), BackendError> = listed.collect();
         if listed.is_err() {
-            // The lists made so far are freed, because they fill the memory that is allowed.
+            // The lists made so far are freed, because they fill all the memory that lists may
+            // have.
             self.tasks.clear();
         }
         listed?;
@@ -179,8 +180,9 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // Each chord gets half of the distance that `are_neighbours` allows, and half its own
-            // length. Rounding takes away less than the thousandth and the one unit that are added.
+            // The reach of a chord is half of the distance that `are_neighbours` allows, and half
+            // its own length. A thousandth and one unit are added, which is more than rounding
+            // takes away.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);
             let [x, y, z] = bit_cast(own.middle(simd, unit));
@@ -247,7 +249,7 @@ struct ListJob<'a> {
     sorted: Sorted<'a>,
     /// The number of the task's first chord.
     first: usize,
-    /// For each chord, the number of neighbours that the task has listed up to and with this
+    /// For each chord, the number of neighbours that the task has listed once it has listed this
     /// chord's.
     ends: &'a mut [u32],
     room: &'a mut Task,
@@ -282,7 +284,7 @@ impl Job for ListJob<'_> {
                 let others = &near[k..][..S::LANES];
                 let other = Chords::<S>::new(simd, chords, others);
                 let Nearest { apart, image, .. } = Nearest::new(simd, &images, &one, &other);
-                // The distance that `are_neighbours` of the core allows.
+                // The distance that the core's `SettlingPlan::are_neighbours` allows.
                 let thickness = one.thickest + other.thickest;
                 let within = grown * thickness + skin;
                 let mut found = dot(apart, apart).less(within * within).bits() & first::<S>(count - k);

@@ -46,10 +46,10 @@ const DIAGRAMS_MAX: usize = 9;
 /// Number of straight pieces of half a turn round a needle.
 const PARTS: u32 = 12;
 
-/// Draws a warp knit's lapping diagram to a PNG file. The diagram has the first wales and courses,
-/// at most 12 by 48, and the chain of each bar stands below it. Needles are counted from the left
-/// if the diagram shows the face, and from the right if it shows the back. Returns the picture's
-/// width and height in pixels.
+/// Draws a warp knit's lapping diagram to a PNG file. The diagram has the first courses, at most
+/// 48, and the first wales, at most 12. A knit of fewer than 6 wales is drawn on 6. The chain of
+/// each bar stands below the diagram. Needles are counted from the left if the diagram shows the
+/// face, and from the right if it shows the back. Returns the picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
@@ -85,7 +85,7 @@ pub fn warp_draft_to(cloth: &WarpKnitted, side: Side, out: impl Write) -> Result
     drawn(cloth, side, |sheet| sheet.save_to(out))
 }
 
-/// Draws a knit on a sheet, and saves it as `save` does.
+/// Draws a knit on a sheet, and passes the sheet to `save`.
 fn drawn(
     cloth: &WarpKnitted,
     side: Side,

@@ -9,7 +9,7 @@ const HEADER: &str = "include/texere.h";
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed={HEADER}");
-    // The systems on which wgpu has Vulkan.
+    // `vulkan` is set below for Linux and Windows, where the library can lend objects of Vulkan.
     println!("cargo::rustc-check-cfg=cfg(vulkan)");
     let system = std::env::var("CARGO_CFG_TARGET_OS");
     if std::env::var_os("CARGO_FEATURE_WGPU").is_some()

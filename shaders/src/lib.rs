@@ -29,8 +29,8 @@ pub mod picture;
 pub mod settling;
 
 /// The grid of a launch of `workgroups`: columns, rows. No side is longer than 65,535, which every
-/// device allows. There are as few rows as possible. Workgroups without work take time, too, so the
-/// grid has fewer of them than it has rows.
+/// device allows. The grid has as few rows as possible, and then as few columns. Workgroups without
+/// work take time, too, and the grid has fewer of them than rows.
 ///
 /// ```
 /// assert_eq!(texere_shaders::grid(65_535), (65_535, 1));

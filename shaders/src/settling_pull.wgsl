@@ -4,12 +4,15 @@
 // settling_pull.cl is the twin of this file, and Pull in texere-core's pass.rs is the definition.
 // Pulls are added up in the order of the lists.
 //
-// Lanes write planes, each with one number for each place. The planes of the four slots come first.
-// A slot of the weighted form has eight planes: the ways (x, y, z) and the weight of contacts, then
-// the ways and the weight of bends. A slot of the block form has nine planes: the sum of all ways,
-// and the squares of their directions (xx, xy, xz, yy, yz, zz). Then come half of the surplus
-// length (x, y, z), the length, the least distance to another yarn, mm, and the least distance
-// divided by the sum of both reaches.
+// Lanes write planes. A plane has a number for each place: that of the interval that begins at the
+// place. First come four slots of planes, one for each of the interval's control points. In the
+// weighted form a slot has eight planes: the displacement by contacts (x, y, z, mm) and its weight,
+// then the displacement by bends and its weight. In the block form a slot has nine planes: the
+// displacement by all pulls (x, y, z, mm), and the products xx, xy, xz, yy, yz, zz of the
+// components of their directions, each times its weight. Six planes follow the slots: a vector
+// along the interval's chord, half as long as the interval's surplus length (x, y, z, mm); the
+// interval's length, mm; the least distance to another yarn, mm; and that distance divided by the
+// sum of both yarns' reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;
@@ -27,8 +30,9 @@ fn interval_at(place: u32) -> Interval {
     return interval_of(places[place - 1u], places[place], places[place + 1u], places[place + 2u]);
 }
 
-// The pull of a bend at one place of an interval: its direction, its way, and the weight of each
-// point. The sum of the weights is 0 if the bend does not pull.
+// The pull of a bend at one place of an interval. `towards` is the direction in which the curve
+// bends. `bends` has a weight for each control point, and `sum` is the sum of their sizes, 0 if the
+// bend does not pull. The pull displaces a point by `-way` times the point's weight.
 struct Bend {
     towards: vec3<f32>,
     way: vec3<f32>,
@@ -74,8 +78,8 @@ fn meeting_at(place: u32) -> Meeting {
     return one;
 }
 
-// The state before the first neighbour of an interval is visited. `first` is the number of the
-// interval's first chord.
+// The start of a walk over the neighbours of an interval's chords, before the first neighbour.
+// `go_to` walks on. `first` is the number of the interval's first chord.
 fn before_listed(first: u32) -> ListedChord {
     var here: ListedChord;
     here.number = first - 1u;
@@ -260,8 +264,8 @@ fn pull_block(place: u32) -> SeenRow {
     return write_own(4u * BLOCK_SLOT, place, length, arc, sight);
 }
 
-// The measures of two rows together: the least of distances and radii, the largest of lengths and
-// steps.
+// The measures of two rows joined: the least clearance, the least radius of a bend, the largest
+// error of a length, and the largest step.
 fn seen_by_both(one: SeenRow, other: SeenRow) -> SeenRow {
     return SeenRow(
         min(one.clearance, other.clearance),

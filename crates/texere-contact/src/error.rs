@@ -10,7 +10,7 @@ pub enum ContactError {
     /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// Settings that no mesh of the yarns is made with.
+    /// Settings with which no mesh of the yarns can be made.
     #[error(transparent)]
     Settings(#[from] PlanError),
     /// More control points than clearance is measured for.
@@ -48,8 +48,8 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// The part of the cloth that the error is about. None if the cloth is not at fault: for
-    /// memory, a cancelled call, settings, and calls that don't fit the yarns.
+    /// The part of the cloth that the error is about. None if the error is not about the cloth: for
+    /// a lack of memory, a cancelled call, settings, and two shapes of different yarns.
     ///
     /// ```
     /// use texere_contact::ContactError;

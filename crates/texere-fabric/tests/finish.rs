@@ -18,8 +18,8 @@ use texere_fabric::{
     WovenDesign, settle,
 };
 
-/// A plain weave of 8 ends and 8 picks of 0.3 mm. Threads lie in pairs `pitch` diameters apart,
-/// with single threads 2.6 diameters from their neighbours between the pairs.
+/// A plain weave of 8 ends and 8 picks, all 0.3 mm thick. In each set a pair of threads, `pitch`
+/// diameters apart, alternates with a single thread, 2.6 diameters from its neighbours.
 fn plain(pitch: f64) -> Structure {
     let spacing = |number| 0.3 * if number % 3 == 2 { 2.0 * 2.6 - pitch } else { pitch };
     let threads: Vec<_> = (0..8).map(|number| Thread::new(spacing(number), 0.15)).collect();
@@ -250,7 +250,8 @@ fn copies_that_can_not_be_are_refused() {
 fn a_settled_repeat_fits_its_copies() {
     let mut yarns = Yarns::builder();
     let mut ends = Vec::new();
-    // Four ends and four picks 1.7 diameters apart, in straight steps. They are far from rest.
+    // Four ends and four picks, 1.7 diameters apart. They go straight up and down between
+    // crossings, far from rest.
     for along in [true, false] {
         for number in 0..4 {
             let side = |crossing: u8| {

@@ -5,7 +5,8 @@
 use texere_core::{Material, Section};
 use texere_fabric::{BySet, Drawdown, Thread, Woven};
 
-/// A twill from its floats, up and down in turn. Each pick is moved by one end.
+/// A twill. `floats` are the lengths of a pick's floats, in ends, with the warp up and down in
+/// turn. The floats of each pick lie one end further right than those of the pick before.
 fn cloth(floats: &[usize], per_inch: f64, diameters_per_inch: f64) -> Woven {
     let thread = Thread::new(25.4 / per_inch, (0.5 * 25.4 / diameters_per_inch) as f32);
     let repeat: Vec<bool> =
@@ -30,8 +31,9 @@ fn ashenhursts_example_of_two_ply_cotton() {
 }
 
 /// J. T. Taylor, "Cotton weaving and designing", 6th edition, "The firmness of cloth": a plain
-/// cloth of 103 threads is as firm as a 2/2 twill of 137 1/3 threads. The threads of a 2/2 twill
-/// and of a twill of 5 up, 2 down, 1 up, 2 down are as 40 + 16 to 40 + 20.
+/// cloth of 103 threads is as firm as a 2/2 twill of 137 1/3 threads. The numbers of threads at
+/// which a 2/2 twill and a twill of 5 up, 2 down, 1 up, 2 down are equally firm are as 40 + 16 to
+/// 40 + 20.
 #[test]
 fn taylors_examples_of_cloths_as_firm() {
     let plain = greatest_per_inch(&cloth(&[1, 1], 20.0, 206.0));
@@ -53,8 +55,9 @@ fn plain(end: usize, pick: usize) -> bool {
 }
 
 /// "Fabric geometry", "Square cloth - jammed structure",
-/// <http://business.vsnl.com/balasubramanian/YarnCloth.html>: θ = 60° and p/D = 0.866, where D is
-/// the sum of both diameters.
+/// <http://business.vsnl.com/balasubramanian/YarnCloth.html>: in a jammed square cloth θ = 60° and
+/// p/D = 0.866, where θ is the greatest angle between a thread and the cloth's plane, p is the
+/// distance from thread to thread, and D is the sum of both diameters.
 #[test]
 fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     let thread = Thread::new(0.866 * 0.4, 0.1);
@@ -65,8 +68,9 @@ fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
 }
 
-/// Peirce's two angles, for threads of unequal thickness and then for flat threads: cos θ₁ + cos θ₂
-/// = 1.
+/// If both sets jam, cos θ₁ + cos θ₂ = 1, where θ₁ and θ₂ are the greatest angles of warp and weft
+/// to the cloth's plane (Peirce). The test tries threads of unequal thickness, first round and then
+/// flat.
 #[test]
 fn each_set_jams_by_the_other_ones_sett() {
     for flatness in [1.0_f32, 1.6] {
@@ -77,7 +81,8 @@ fn each_set_jams_by_the_other_ones_sett() {
                 [radius * f64::from(flatness).sqrt(), radius / f64::from(flatness).sqrt()]
             });
             let both = 2.0 * (halves[0][1] + halves[1][1]);
-            // The pitch of a jammed set is D sin θ, with θ of the other set.
+            // The pitch of a jammed set of round threads is D sin θ, with θ of the other set. Flat
+            // threads need the difference of their width and height in addition.
             let pitches =
                 [0, 1].map(|set: usize| both * angles[set].sin() + 2.0 * (halves[set][0] - halves[set][1]));
             let threads =

@@ -19,14 +19,14 @@ pub mod tag {
     pub const PINNED: u32 = 16;
 }
 
-/// The places of a yarn, and how it goes on.
+/// The places of a yarn, and how the yarn goes on beyond them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SettlingYarn {
     /// Number of the place of the yarn's first control point.
     pub first: u32,
     /// Number of the yarn's control points.
     pub points: u32,
-    /// The yarn's ends, which say how it goes on.
+    /// Whether the yarn ends, closes up or goes on in another repeat.
     pub ends: Ends,
     /// The yarn's length, in units of [`Spans::along`](super::Spans::along).
     pub length: u32,
@@ -39,9 +39,9 @@ impl SettlingYarn {
         self.ends.intervals(self.points as usize) as u32
     }
 
-    /// A yarn goes on at its first control point or at a copy of it. This is the number of repeats,
-    /// along x and y, by which that copy is moved. It is 0 for a closed yarn, and `None` for an
-    /// open one.
+    /// The number of repeats, along x and y, from the yarn's first control point to the copy of it
+    /// at which the yarn goes on after its last one. The number is 0 for a closed yarn, which goes
+    /// on at the first point itself, and `None` for an open yarn.
     #[must_use]
     pub const fn shift(&self) -> Option<[i32; 2]> {
         match self.ends {
@@ -51,9 +51,9 @@ impl SettlingYarn {
         }
     }
 
-    /// Number of the place at which interval number `interval` begins, counted from the yarn's
-    /// first interval. A closed or repeating yarn is counted on beyond its first and last interval.
-    /// `None` if the yarn has no such interval.
+    /// Number of the place at which interval number `interval` begins. The yarn's first interval is
+    /// number 0. On a closed or repeating yarn the numbers go round: the first interval follows the
+    /// last one, and the last one comes before the first. `None` if the yarn has no such interval.
     #[must_use]
     pub fn interval(&self, interval: i64) -> Option<usize> {
         let count = i64::from(self.intervals());

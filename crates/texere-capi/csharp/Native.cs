@@ -286,7 +286,8 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_BACKING_BIRDSEYE = 1;
         /// <summary>
-        ///  Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+        ///  Each of the n yarns of a row knits on every n-th back needle, and on the same needles in all
+        ///  rows that have the same yarns.
         /// </summary>
         internal const uint TEXERE_BACKING_LADDER = 2;
         /// <summary>
@@ -2847,7 +2848,8 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
+        ///  Beds of needles, 1 or 2. With `jacquard` it has to be 0: a Jacquard with a backing is
+        ///  knitted on two beds, one without on one bed.
         /// </summary>
         public uint beds;
         /// <summary>
@@ -2926,8 +2928,8 @@ namespace Texere
         ///  The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
         ///  `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
         ///  each row from left to right. A row becomes one course for each of its yarns, in the order of
-        ///  their numbers. Front needles knit the course's yarn where the picture has it, and it floats
-        ///  past the others.
+        ///  their numbers. The front needles knit the course's yarn where the picture has that yarn. The
+        ///  yarn floats past the other front needles.
         /// </summary>
         public uint* jacquard;
     }

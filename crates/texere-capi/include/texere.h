@@ -230,7 +230,8 @@
 // Every other back needle knits, alternating from yarn to yarn and from row to row.
 #define TEXERE_BACKING_BIRDSEYE 1
 
-// Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+// Each of the n yarns of a row knits on every n-th back needle, and on the same needles in all
+// rows that have the same yarns.
 #define TEXERE_BACKING_LADDER 2
 
 // Threads bend round one another as round threads do, and floats lie flat.
@@ -1041,7 +1042,8 @@ typedef struct texere_stitch {
 typedef struct texere_weft_knit {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
+  // Beds of needles, 1 or 2. With `jacquard` it has to be 0: a Jacquard with a backing is
+  // knitted on two beds, one without on one bed.
   uint32_t beds;
   // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
@@ -1086,8 +1088,8 @@ typedef struct texere_weft_knit {
   // The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
   // `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
   // each row from left to right. A row becomes one course for each of its yarns, in the order of
-  // their numbers. Front needles knit the course's yarn where the picture has it, and it floats
-  // past the others.
+  // their numbers. The front needles knit the course's yarn where the picture has that yarn. The
+  // yarn floats past the other front needles.
   const uint32_t *jacquard;
 } texere_weft_knit;
 

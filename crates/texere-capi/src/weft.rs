@@ -38,7 +38,8 @@ pub const TEXERE_STITCH_MOVED_BEHIND: u32 = 7;
 pub const TEXERE_BACKING_NONE: u32 = 0;
 /// Every other back needle knits, alternating from yarn to yarn and from row to row.
 pub const TEXERE_BACKING_BIRDSEYE: u32 = 1;
-/// Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+/// Each of the n yarns of a row knits on every n-th back needle, and on the same needles in all
+/// rows that have the same yarns.
 pub const TEXERE_BACKING_LADDER: u32 = 2;
 
 /// The stitch in one wale of one course.
@@ -58,7 +59,8 @@ pub struct texere_stitch {
 pub struct texere_weft_knit {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
+    /// Beds of needles, 1 or 2. With `jacquard` it has to be 0: a Jacquard with a backing is
+    /// knitted on two beds, one without on one bed.
     pub beds: u32,
     /// A constant whose name begins with TEXERE_CELLS.
     pub cells: u32,
@@ -103,8 +105,8 @@ pub struct texere_weft_knit {
     /// The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
     /// `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
     /// each row from left to right. A row becomes one course for each of its yarns, in the order of
-    /// their numbers. Front needles knit the course's yarn where the picture has it, and it floats
-    /// past the others.
+    /// their numbers. The front needles knit the course's yarn where the picture has that yarn. The
+    /// yarn floats past the other front needles.
     pub jacquard: *const u32,
 }
 
@@ -208,7 +210,7 @@ impl texere_weft_knit {
         chart.map_err(|error| self.refused(error))
     }
 
-    /// Refuses numbers of yarns that there are not. `name` is the array's.
+    /// Refuses numbers that no yarn has. `name` is the name of the array that holds them.
     fn known(&self, name: &str, numbers: &[u32]) -> Result<(), Failure> {
         match numbers.iter().position(|yarn| u64::from(*yarn) >= self.yarn_count) {
             None => Ok(()),

@@ -100,7 +100,7 @@ impl Clearance {
         self.clearance.bend.radii
     }
 
-    /// The nearest contacts, the worst first: 100 at most. Copies.
+    /// The nearest contacts, the worst first: 100 at most. Returns a copy.
     ///
     /// >>> worst = texere.read("designs/poplin.toml").placed().clearance().worst
     /// >>> worst[0].ratio <= worst[-1].ratio
@@ -173,7 +173,7 @@ impl Diagnosis {
     }
 
     /// What ``texere check`` prints: faults with their places, and cures, as pairs of a label and
-    /// what is said of it. Copies.
+    /// what is said of it. Returns a copy.
     ///
     /// >>> lines = texere.read("designs/poplin.toml").placed().diagnosis.lines
     /// >>> lines[0][0]
@@ -184,7 +184,7 @@ impl Diagnosis {
     }
 
     /// All of it by name, as ``texere check --json`` prints it; docs/INSPECT.md says what each
-    /// entry is. Copies.
+    /// entry is. Returns a copy.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().diagnosis.as_dict()["clean"]
     /// False

@@ -288,7 +288,7 @@ impl Cloth {
     }
 
     /// What a designer should know: what the finish asks for and the cloth did not reach, what the
-    /// reader had to assume. Copies.
+    /// reader had to assume. Returns a copy.
     ///
     /// >>> texere.read("designs/poplin.toml").rest(device="cpu", progress=False).warnings
     /// []

@@ -102,8 +102,8 @@ impl Design {
         self.design.files().to_vec()
     }
 
-    /// What a designer should know: what the reader had to assume, faults of the structure as it is
-    /// placed. Copies.
+    /// Warnings: what the reader of the file had to assume, and faults of the structure as it is
+    /// placed. Returns a copy.
     ///
     /// >>> texere.read("designs/herringbone.wif").warnings
     /// []
@@ -115,15 +115,17 @@ impl Design {
     /// The design with another finish; what is None stays as it is.
     ///
     /// ``settle`` lets yarns come to rest. Of woven cloth: ``warp_tension`` and ``weft_tension``, 0
-    /// to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how flat it is pressed; ``stretch``,
-    /// ``("warp", 1.1)`` to make the cloth 1.1 times as long along its warp, 0.5 to 2. Of knits:
-    /// ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5 to 2 times
-    /// the length of yarn that is placed. ``passes``, 1 to 1000000: the most passes of a knit.
+    /// to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how strongly the cloth is pressed flat;
+    /// ``stretch``, ``("warp", 1.1)`` to make the cloth 1.1 times as long along its warp, 0.5 to 2.
+    /// Of knits: ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5
+    /// to 2 times the length of yarn that is placed. ``passes``, 1 to 1000000: the most passes of a
+    /// knit.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True
     ///
-    /// Raises ValueError for what is out of range, or is no finish of the structure.
+    /// Raises ValueError for a value out of its range, and for an argument that this kind of
+    /// structure does not have.
     #[pyo3(signature = (*, settle=None, warp_tension=None, weft_tension=None, calender=None, stretch=None, press_mm=None, loop_length=None, passes=None))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn finished(

@@ -172,7 +172,7 @@ impl Editing {
         })
     }
 
-    /// The yarns as they are now. Copies.
+    /// The yarns as they are now. Returns a copy.
     ///
     /// >>> len(texere.read("designs/plain.toml").placed().edit(device="cpu").yarns())
     /// 112

@@ -80,7 +80,7 @@ impl Measures {
         self.measures.thickness_mm
     }
 
-    /// Length of yarn of each material, mm. Copies.
+    /// Length of yarn of each material, mm. Returns a copy.
     ///
     /// >>> len(texere.read("designs/plain.toml").placed().measures.length_mm)
     /// 1
@@ -218,7 +218,7 @@ impl Measures {
         known(self.measures.knit.and_then(|knit| knit.tightness))
     }
 
-    /// All measures that the cloth has, by their names. Copies.
+    /// All measures that the cloth has, by their names. Returns a copy.
     ///
     /// >>> "warp_crimp" in texere.read("designs/plain.toml").placed().measures.as_dict()
     /// True

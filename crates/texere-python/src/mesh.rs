@@ -165,7 +165,7 @@ impl Mesh {
         places(slf, 3, 6)
     }
 
-    /// The colour of each vertex, sRGB: uint8 of shape (n, 3). Copies.
+    /// The colour of each vertex, sRGB: uint8 of shape (n, 3). Returns a copy.
     ///
     /// >>> yarns = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1, colors=[[1, 2, 3]])
     /// >>> yarns.mesh(device="cpu").colors[0].tolist()
@@ -221,7 +221,7 @@ impl Mesh {
     }
 
     /// The mesh as a ``pyvista.PolyData``, with its normals, and ``yarn``, ``uv`` and ``rgb`` as
-    /// data of points. Copies.
+    /// data of points. Returns a copy.
     ///
     /// >>> yarns = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1)
     /// >>> yarns.mesh(sides=4, device="cpu").to_pyvista().n_points

@@ -14,7 +14,7 @@ use crate::yarn::Bobbins;
 
 /// The drawdown of a weave in notation, as a bool array of shape (picks, ends): ``plain``, ``2/2``,
 /// ``satin 8(3)``, ``herringbone 2/2(16)``. Row 0 is the first pick, at the bottom of the cloth;
-/// column 0 the first end, at the left. True: the end lies on the face. Copies.
+/// column 0 the first end, at the left. True: the end lies on the face. Returns a copy.
 ///
 /// >>> texere.weave("2/2", ends=4, picks=2).astype(int).tolist()
 /// [[1, 1, 0, 0], [0, 1, 1, 0]]

@@ -166,7 +166,7 @@ impl Yarns {
         unsafe { view(slf.as_any(), ArrayView1::from(slf.get().yarns.layout().offsets())) }
     }
 
-    /// The colour of each yarn, sRGB: uint8 of shape (yarns, 3). Copies.
+    /// The colour of each yarn, sRGB: uint8 of shape (yarns, 3). Returns a copy.
     ///
     /// >>> points = [[0, 0, 0], [1, 0, 0]]
     /// >>> texere.Yarns.from_arrays(points, 0.1, colors=[[1, 2, 3]]).colors.tolist()
@@ -178,7 +178,7 @@ impl Yarns {
         Array2::from_shape_fn((yarns.len(), 3), color).into_pyarray(py)
     }
 
-    /// Which thread of the design each yarn is, in words. Copies.
+    /// Which thread of the design each yarn is, in words. Returns a copy.
     ///
     /// >>> texere.read("designs/plain.toml").placed().yarns.names[:2]
     /// ['end 1', 'end 2']

@@ -15,9 +15,10 @@ const LENGTH: f32 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// No two surfaces, as drawn, have a contact with a ratio below [`CLEAR`], and none folds.
-    /// Yarns of a knit have the lengths that they should have, unless lengths are free, and keep
-    /// their linking.
+    /// The surfaces, as they are drawn, have no contact whose
+    /// [ratio](texere_contact::Contact::ratio) is below [`CLEAR`], and none of them folds. Yarns of
+    /// a knit have the lengths that they should have, unless lengths are free, and keep their
+    /// linking.
     AtRest,
     /// Yarns of a knit keep their linking but have no room. Even the passes of the block form, the
     /// second form of settling by contact, did not bring them to rest.

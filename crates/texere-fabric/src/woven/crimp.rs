@@ -23,9 +23,9 @@ use crate::WovenError;
 pub enum Crimp {
     /// The shares follow from the threads' stiffness in bending, taken as the fourth power of the
     /// radius. [`Thread::stiffness`] does not count. The stiffer set stays straighter. The share is
-    /// a half if both sets are alike, and is kept between 20 and 80 %. Beyond these shares the yarn
-    /// that bends more needs a pitch that few cloths have, and thin yarns do not hold thick ones
-    /// quite straight.
+    /// a half if both sets are alike, and is kept between 20 and 80 %. A greater share than 80 %
+    /// would need a pitch that few cloths have. Thin yarns do not hold thick ones quite straight,
+    /// either.
     #[default]
     Stiffness,
     /// The warp's share, from 0 (straight ends) to 1 (straight picks).

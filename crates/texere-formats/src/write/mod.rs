@@ -8,7 +8,7 @@
 //!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
-//! or as texere's own [design file](fn@toml). The readers of texere read both.
+//! or as texere's own [design file](fn@toml). texere reads both kinds of file again.
 //!
 //! Centrelines are written as [curves](fn@curves): BCC (`.bcc`) and USD's text form (`.usda`), for
 //! simulators and renderers.

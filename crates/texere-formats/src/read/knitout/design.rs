@@ -16,8 +16,8 @@ use crate::read::{Design, ReadError};
 /// The number of needles to the inch if the file does not give it.
 const GAUGE: f64 = 15.0;
 
-/// The width of a wale in yarn diameters, that of plain jersey. The diameters are worked out from
-/// it, because a knitout file does not say how thick its yarns are.
+/// The width of a wale of plain jersey, in yarn diameters. The yarns' diameters are worked out from
+/// the width of the wales, because a knitout file does not say how thick its yarns are.
 const WALE_OF_DIAMETER: f64 = 5.0;
 
 /// Colours of the carriers, since a file has none that can be drawn. They are easily told apart,

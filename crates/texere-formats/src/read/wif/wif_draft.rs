@@ -17,7 +17,7 @@ use crate::read::keys::Keys;
 use crate::read::threads::only_used;
 use crate::read::{Design, ReadError};
 
-/// A WIF file, read.
+/// What has been read from a WIF file.
 #[derive(Debug)]
 pub(crate) struct WifDraft {
     pub(crate) name: String,
@@ -78,8 +78,9 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
     ReadError::MissingSection { file: ini.file.into(), section, needed_for }
 }
 
-/// The draft and its drawdown. A draft has a threading, and a tie-up with treadling or a lift plan.
-/// If a file has both and they weave different cloths, the tie-up is used, and a warning says so.
+/// The draft and its drawdown. A draft has a threading. It also has a tie-up and a treadling, or
+/// else a lift plan. If a file has all three, and the lift plan weaves another cloth, the tie-up
+/// and the treadling are used, and a warning says so.
 fn draft(
     ini: &Ini<'_>,
     ends: u32,
@@ -128,10 +129,10 @@ fn draft(
     Ok((draft, drawdown))
 }
 
-/// Refuses a draft that counts shafts from 0. A draft that does so has ends on shaft 0 and on every
-/// further shaft except the last that `[WEAVING]` declares, and its lifts name shaft 0 and never
-/// this last shaft. If ends and lifts name shaft 0, but the other signs are missing, there is a
-/// warning. Drafts that texere has written count from 1.
+/// Refuses a draft that counts shafts from 0. Such a draft shows three signs. It has ends on shaft
+/// 0 and on every further shaft, except the last one that `[WEAVING]` declares. Its lifts name
+/// shaft 0. Its lifts do not name that last shaft. If ends and lifts name shaft 0, but another sign
+/// is missing, there is a warning. Drafts that texere has written count from 1.
 fn counted_from_1(
     ini: &Ini<'_>,
     threading: &[Vec<u32>],

@@ -11,8 +11,8 @@
 // displacement by all pulls (x, y, z, mm), and the products xx, xy, xz, yy, yz, zz of the
 // components of their directions, each times its weight. Six planes follow the slots: a vector
 // along the interval's chord, half as long as the interval's surplus length (x, y, z, mm); the
-// interval's length, mm; the least distance to another yarn, mm; and that distance divided by the
-// sum of both yarns' reaches.
+// interval's length, mm; the least distance to another yarn, mm; and the least ratio of such a
+// distance to the sum of both yarns' reaches.
 
 @group(0) @binding(15) var<storage, read> places: array<vec4<i32>>;
 @group(0) @binding(17) var<storage, read> chords: array<vec4<u32>>;

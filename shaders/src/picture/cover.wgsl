@@ -110,7 +110,7 @@ fn area_of(p: Corner, q: Corner, r: Corner) -> f32 {
 
 // Whether a triangle may show whose corners are less than EXTENT apart. Twice its area, in units of
 // 1/65,536 square pixel, has an error of less than 256 from rounding. A triangle therefore counts
-// as seen even if that number is above 0, up to 256.
+// as seen if that number is below 256, and not only if it is below 0.
 fn near_may_show(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>) -> bool {
     let pq = q - p;
     let pr = r - p;

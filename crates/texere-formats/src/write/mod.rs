@@ -42,6 +42,7 @@ mod draft;
 mod error;
 mod feed;
 mod file;
+mod folder;
 mod format;
 #[cfg(feature = "glb")]
 mod glb;
@@ -70,6 +71,7 @@ pub use draft::{
 };
 pub use error::WriteError;
 pub use file::file;
+pub use folder::folder;
 pub use format::Format;
 pub use mesh::{Written, mesh, mesh_to, run, run_to, stream, stream_to};
 pub use output::Output;

@@ -22,7 +22,8 @@ struct Entry {
 ///
 /// **Errors**: those of `out`, and [`io::ErrorKind::FileTooLarge`] for more than 4 GiB.
 ///
-/// **Source**: u3m_additional_spec_u3ma.txt of U3M 1.1: no extra fields, no comments, no attributes.
+/// **Source**: u3m_additional_spec_u3ma.txt of U3M 1.1: no extra fields, no comments, no
+/// attributes.
 pub(crate) fn write(
     mut out: impl Write,
     files: impl IntoIterator<Item = io::Result<(String, Vec<u8>)>>,

@@ -1,7 +1,7 @@
 //! Gaps of maps, which take on what lies round them.
 
-/// Fills texels that are not `seen` with the mean of their neighbours that are, from the gaps' edges
-/// inwards. A tile's opposite edges are neighbours.
+/// Fills texels that are not `seen` with the mean of their neighbours that are, from the gaps'
+/// edges inwards. A tile's opposite edges are neighbours.
 pub(crate) fn fill(texels: &mut [[[f32; 3]; 3]], seen: &[bool], size: [u32; 2], tiles: bool) {
     let [width, height] = size.map(i64::from);
     let neighbours = |at: usize| {

@@ -38,12 +38,14 @@ mod maps;
 mod material;
 mod mtlx;
 mod occlusion;
+mod side;
 mod texel;
 mod u3m;
 
 pub use area::Area;
 pub use bake::{Options, bake};
 pub use error::BakeError;
-pub use maps::{Maps, Side};
+pub use maps::Maps;
 pub use material::Material;
 pub use occlusion::occlusion;
+pub use side::Side;

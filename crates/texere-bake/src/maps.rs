@@ -6,29 +6,17 @@ use glam::Vec3;
 use rayon::prelude::*;
 use texere_core::backend::room_for;
 use texere_core::{Origin, Yarns};
-use texere_render::{Camera, Extent, Layers, Scene, surface_width};
+use texere_render::{Camera, Extent, Layers, Scene};
 
 use crate::gaps::fill;
-use crate::texel::{Look, Texel};
-use crate::{Area, BakeError, occlusion};
-
-/// Samples of a texel, across and down.
-pub(crate) const SAMPLES: u32 = 4;
+use crate::texel::{Look, SAMPLES, Texel};
+use crate::{Area, BakeError, Side, occlusion};
 
 /// Texels, across and down, that are drawn at once. The device then needs some 150 MB.
 const PIECE: u32 = 256;
 
 /// The reach of ambient occlusion, radii of a yarn: that of texere's pictures.
 const REACH_RADII: f64 = 5.0;
-
-/// The side of a cloth that is seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// The face, from above.
-    Front,
-    /// The back, with the cloth turned over sideways.
-    Back,
-}
 
 /// What one side of a cloth shows, texel by texel: rows from the top, texels of a row from the left
 /// as that side is seen. Where a texel shows no yarn, its alpha is 0, its yarn is
@@ -202,10 +190,4 @@ impl Piece {
             }
         });
     }
-}
-
-/// The roughness that a surface of yarns' own fibres has, before normals within a texel add to it:
-/// the mean square slope, twice.
-pub(crate) fn fibre_width(yarn: &texere_core::Yarn) -> f32 {
-    2.0 * surface_width(yarn).powi(2)
 }

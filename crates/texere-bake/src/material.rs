@@ -43,8 +43,8 @@ impl Material {
     /// Writes the material's maps and documents into a new folder at `path`. There is either all of
     /// it or nothing. Returns the names of the documents: U3M, U3MA and MaterialX.
     ///
-    /// **Errors**: [`BakeError::Write`] if there is something at `path` already that is not an empty
-    /// folder, or if the file system refuses, and [`BakeError::Image`].
+    /// **Errors**: [`BakeError::Write`] if there is something at `path` already that is not an
+    /// empty folder, or if the file system refuses, and [`BakeError::Image`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<[String; 3], BakeError> {
         let name = file_name(&self.name);
         let documents = ["u3m", "u3ma", "mtlx"].map(|ending| format!("{name}.{ending}"));
@@ -166,8 +166,8 @@ fn dos_time(now: jiff::Timestamp) -> [u16; 2] {
     let number = |value: i8| value as u16;
     let year = (now.year().clamp(1980, 2107) - 1980) as u16;
     [
-        number(now.hour()) << 11 | number(now.minute()) << 5 | number(now.second()) / 2,
-        year << 9 | number(now.month()) << 5 | number(now.day()),
+        (number(now.hour()) << 11) | (number(now.minute()) << 5) | (number(now.second()) / 2),
+        (year << 9) | (number(now.month()) << 5) | number(now.day()),
     ]
 }
 

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use crate::Maps;
 
-/// The document of a material whose face has `maps`. `heights` are those that the displacement's PNG
-/// shows as black and white, mm. Coordinates of texture are those of a plane in its true size: one
-/// unit is one metre of cloth. The map of occlusion has no input of the surface, since a renderer works
-/// out itself what takes light away; it is there for those that do not.
+/// The document of a material whose face has `maps`. `heights` are those that the displacement's
+/// PNG shows as black and white, mm. Coordinates of texture are those of a plane in its true size:
+/// one unit is one metre of cloth. The map of occlusion has no input of the surface, since a
+/// renderer works out itself what takes light away; it is there for those that do not.
 pub(crate) fn document(name: &str, maps: &Maps, heights: [f32; 2]) -> String {
     let [width, height] = maps.size_mm.map(|mm| mm / 1000.0);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");

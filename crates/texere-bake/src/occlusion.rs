@@ -8,13 +8,14 @@ use rayon::prelude::*;
 /// Directions in which the horizon is looked for, two opposite ones at a time.
 const SLICES: u32 = 8;
 
-/// Places along each direction. They lie closer together near the texel.
-const STEPS: u32 = 16;
+/// The most places along each direction: each texel at the usual size of texels and the usual
+/// reach.
+const STEPS: u32 = 64;
 
-/// The share of the light of an even sky that reaches each texel of a surface, from 0 to 1. `height`
-/// (mm) and `normal` (x to the right, y up, z out of the surface) have a value for each texel, rows
-/// from the top. `texel_mm` is the width and the height of a texel. Only what lies within `reach_mm`
-/// takes light away. If the map `tiles`, the surface goes on beyond its edges.
+/// The share of the light of an even sky that reaches each texel of a surface, from 0 to 1.
+/// `height` (mm) and `normal` (x to the right, y up, z out of the surface) have a value for each
+/// texel, rows from the top. `texel_mm` is the width and the height of a texel. Only what lies
+/// within `reach_mm` takes light away. If the map `tiles`, the surface goes on beyond its edges.
 ///
 /// **Source**: Jimenez, Wu, Pesce and Jarabo 2016, Practical Realtime Strategies for Accurate
 /// Indirect Occlusion, equation 7: the light between two horizons, weighted by its cosine.
@@ -86,13 +87,10 @@ impl Surface<'_> {
     fn horizon(&self, place: [i64; 2], direction: DVec2) -> f64 {
         let own = self.at(place).unwrap_or(0.0);
         let step = self.texel_mm[0].min(self.texel_mm[1]);
+        let steps = (self.reach_mm / step).clamp(1.0, f64::from(STEPS)).floor();
         let mut steepest = 0.0_f64;
-        for number in 1..=STEPS {
-            let share = f64::from(number) / f64::from(STEPS);
-            let wanted = (self.reach_mm * share * share).max(step * f64::from(number));
-            if wanted > self.reach_mm {
-                break;
-            }
+        for number in 1..=steps as u32 {
+            let wanted = self.reach_mm * f64::from(number) / steps;
             // Rows go down, and y goes up.
             let right = (direction.x * wanted / self.texel_mm[0]).round() as i64;
             let down = (-direction.y * wanted / self.texel_mm[1]).round() as i64;
@@ -124,20 +122,20 @@ mod tests {
     /// which is the form factor of an endless strip.
     #[test]
     fn the_floor_of_a_trench_sees_the_strip_above_it() {
-        let (width, floor, deep) = (400_i64, 40_i64, 0.5_f64);
+        let (width, floor, deep) = (400_i64, 20_i64, 0.5_f64);
         let height: Vec<f32> = (0..width * 3)
             .map(|at| if (at % width - width / 2).abs() <= floor { 0.0 } else { deep as f32 })
             .collect();
         let normal = vec![[0.0, 0.0, 1.0]; height.len()];
-        let light = occlusion(&height, &normal, [width as u32, 3], [0.01, 0.01], 20.0, true);
-        // From the middle the walls stand 40.5 texels away.
-        let half = 0.405_f64;
+        let light = occlusion(&height, &normal, [width as u32, 3], [0.02; 2], 1.28, true);
+        // From the middle the walls stand 21 texels away.
+        let half = 0.42_f64;
         let exact = half / half.hypot(deep);
         let middle = f64::from(light[(width + width / 2) as usize]);
         assert!((middle - exact).abs() < 0.02, "{middle} for {exact}");
         // Beside a wall half of the sky is hidden, and the far wall hides little.
         let beside = f64::from(light[(width + width / 2 + floor) as usize]);
-        let exact = 0.5 * (0.005_f64 / 0.005_f64.hypot(deep) + 0.805 / 0.805_f64.hypot(deep));
+        let exact = 0.5 * (0.02_f64 / 0.02_f64.hypot(deep) + 0.82 / 0.82_f64.hypot(deep));
         assert!((beside - exact).abs() < 0.03, "{beside} for {exact}");
         // Nothing stands above the walls.
         assert!(light[width as usize] > 0.99);

@@ -6,9 +6,12 @@ use std::sync::OnceLock;
 
 use glam::{DVec3, Vec3};
 use texere_core::{Origin, Settings, YarnPlace, Yarns};
-use texere_render::Layers;
+use texere_render::{Layers, surface_width};
 
-use crate::maps::{SAMPLES, Side, fibre_width};
+use crate::Side;
+
+/// Samples of a texel, across and down.
+pub(crate) const SAMPLES: u32 = 4;
 
 /// Rings of a yarn after which [`Layers::uv`] counts from 0 again.
 const RINGS_COUNTED: usize = 8_192;
@@ -21,6 +24,7 @@ pub(crate) struct Texel {
     color: Vec3,
     normal: Vec3,
     height: f32,
+    /// The square of the width α of the microfacets.
     width: f32,
     /// One more than the number of the yarn in the middle, 0 for none.
     pub(crate) yarn: u32,
@@ -45,8 +49,8 @@ impl Texel {
         self.height * self.share()
     }
 
-    /// The square of the width α of the texel's microfacets: that of its fibres, and twice the
-    /// variance of its normals. Returned as α.
+    /// The width α of the texel's microfacets. Its square is that of the fibres, and twice the
+    /// variance of the texel's normals.
     pub(crate) fn width(&self) -> f32 {
         let length = self.normal().length().clamp(1e-3, 1.0);
         (self.width * self.share() + 2.0 * (1.0 - length) / length).sqrt()
@@ -59,7 +63,7 @@ pub(crate) struct Look<'a> {
     subdivisions: usize,
     /// 1 for the face, -1 for the back: the direction of x and z.
     over: f32,
-    /// The number of each yarn, its colour, and the width of its fibres.
+    /// The number of each yarn, its colour, and the square of the width α of its fibres.
     each: Vec<(u32, Vec3, f32)>,
     numbered: Vec<(Origin, u32)>,
     /// The distance of each ring along its yarn, mm. Yarns that are not seen have none.
@@ -83,7 +87,8 @@ impl<'a> Look<'a> {
                 numbered.len() as u32 - 1
             });
             let color = Vec3::from(yarns.materials()[yarn.material as usize].linear_rgb());
-            (number, color, fibre_width(yarn))
+            // Twice the mean square slope is the square of the width α.
+            (number, color, 2.0 * surface_width(yarn).powi(2))
         });
         let each = each.collect();
         let rings = yarns.layout().yarns().iter().map(|_| OnceLock::new()).collect();

@@ -48,7 +48,8 @@ impl Structure {
     ///
     /// **Errors**: the errors of [`Woven::new`](crate::Woven::new),
     /// [`Knitted::new`](crate::weft::Knitted::new) and
-    /// [`WarpKnitted::new`](crate::warp::WarpKnitted::new) if the structure is too large with its copies.
+    /// [`WarpKnitted::new`](crate::warp::WarpKnitted::new) if the structure is too large with its
+    /// copies.
     pub fn tile(&self) -> Result<Option<Tile>, FabricError> {
         let (structure, kind) = match self {
             Self::Woven(design) => {

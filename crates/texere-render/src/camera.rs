@@ -111,8 +111,9 @@ impl Camera {
     }
 
     /// A rectangle of the cloth from straight above its face. `low` is the rectangle's lower left
-    /// corner (x, y), and `shown` its width and height, mm. The picture shows exactly the rectangle,
-    /// so its pixels need not be square. A map that tiles is such a picture of one repeat.
+    /// corner (x, y), and `shown` its width and height, mm. The picture shows exactly the
+    /// rectangle, so its pixels need not be square. A map that tiles is such a picture of one
+    /// repeat.
     ///
     /// ```
     /// # use texere_core::{ControlPoint, Yarn, Yarns};

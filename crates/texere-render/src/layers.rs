@@ -101,8 +101,8 @@ impl Scene {
     }
 
     /// What a view shows in each pixel, without a picture: nothing is lit. Pixels are not
-    /// supersampled, and single fibres are left out. `progress` gets the share of the work done, as in
-    /// [`Scene::picture_with_progress`].
+    /// supersampled, and single fibres are left out. `progress` gets the share of the work done, as
+    /// in [`Scene::picture_with_progress`].
     ///
     /// **Errors**: those of [`Scene::picture_with_progress`].
     pub fn view_layers(

@@ -9,4 +9,4 @@
 //!
 //! [`bake`](fn@bake) has an example.
 
-pub use texere_bake::{BakeError, Maps, Material, Options, bake, occlusion};
+pub use texere_bake::{BakeError, Maps, Material, Options, Side, bake, occlusion};

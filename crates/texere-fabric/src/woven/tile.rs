@@ -5,7 +5,8 @@ use crate::FabricError;
 
 /// Number of threads beyond the longest float that lie round a repeat. A thread's bend depends on
 /// the crossings at both ends of its float, and on the next ones. With 1 a tile of plain weave is
-/// off by .05 mm at its edges, with 2 by nothing (`tiles_go_on_at_their_edges`); this is twice that.
+/// off by .05 mm at its edges, with 2 by nothing (`tiles_go_on_at_their_edges`); this is twice
+/// that.
 const BEYOND: usize = 4;
 
 impl Woven {

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use super::WriteError;
 use super::unfinished::UnfinishedFolder;
 
-/// Makes a folder at `path`. `fill` writes its files into an unfinished folder, which then takes its
-/// place. If `fill` fails, or the program ends first, there is no folder at `path`.
+/// Makes a folder at `path`. `fill` writes its files into an unfinished folder, which then takes
+/// its place. If `fill` fails, or the program ends first, there is no folder at `path`.
 ///
 /// **Errors**: the error of `fill`, and [`WriteError::Io`] if there is something at `path` already
 /// that is not an empty folder, or if the file system refuses.

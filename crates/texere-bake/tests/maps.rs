@@ -47,6 +47,25 @@ fn maps_have_the_size_and_the_yarns_of_the_repeat() {
     assert!(material.is_woven && material.thickness_mm > 0.3);
 }
 
+/// What one side shows through is what the other shows through: gaps of the back are those of the
+/// face, with left and right exchanged. The maps have more than one piece.
+#[test]
+fn gaps_go_through() {
+    let material = baked(TWILL, &Options::default().texel_mm(0.008));
+    let (front, back) = (&material.front, &material.back);
+    assert_eq!(front.size, back.size);
+    let [width, height] = front.size.map(|texels| texels as usize);
+    assert!(width > 256);
+    let mut off = 0;
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let [one, other] = [front.alpha[y * width + x], back.alpha[y * width + width - 1 - x]];
+        off += usize::from((one - other).abs() > 0.3);
+    }
+    let open = front.alpha.iter().filter(|alpha| **alpha == 0.0).count();
+    assert!(open > width * height / 50, "{open} open texels");
+    assert!(off < width * height / 500, "{off} of {} texels differ", width * height);
+}
+
 /// Lambert's light on a linear colour, as sRGB bytes.
 fn lit(color: [f32; 3], normal: [f32; 3], alpha: f32) -> [f32; 3] {
     let light = [-0.48_f32, 0.36, 0.8];

@@ -10,30 +10,38 @@ const TEXELS_MOST: u64 = 1 << 25;
 
 /// A rectangle of cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Area {
+pub(crate) struct Area {
     /// The lower left corner (x, y), mm.
-    pub low: [f64; 2],
+    pub(crate) low: [f64; 2],
     /// Width and height, mm.
-    pub size: [f64; 2],
+    pub(crate) size: [f64; 2],
     /// Whether the cloth goes on after the rectangle as it does at the opposite edge.
-    pub tiles: bool,
+    pub(crate) tiles: bool,
 }
 
 impl Area {
+    /// **Errors**: [`BakeError::Area`].
+    pub(crate) fn check(&self) -> Result<(), BakeError> {
+        let Self { low, size, .. } = *self;
+        let is_finite = low.iter().chain(&size).all(|number| number.is_finite());
+        if is_finite && size.iter().all(|&side| side > 0.0) {
+            Ok(())
+        } else {
+            Err(BakeError::Area { low, size })
+        }
+    }
+
     /// Width and height of the area's maps, texels of about `mm`. A whole number of texels fits the
     /// area, so that they are not quite square.
     ///
     /// **Errors**: [`BakeError::Area`], [`BakeError::Texel`], [`BakeError::TooLarge`].
     pub(crate) fn texels(&self, mm: f64) -> Result<[u32; 2], BakeError> {
-        let Self { low, size, .. } = *self;
-        if !low.iter().chain(&size).all(|number| number.is_finite()) || size.iter().any(|&side| side <= 0.0) {
-            return Err(BakeError::Area { low, size });
-        }
+        self.check()?;
         if !(mm.is_finite() && mm > 0.0) {
             return Err(BakeError::Texel { mm });
         }
         // A number beyond all u64 becomes the largest one.
-        let [width, height] = size.map(|side| (side / mm).round().max(1.0) as u64);
+        let [width, height] = self.size.map(|side| (side / mm).round().max(1.0) as u64);
         let side = u64::from(SIDE_MOST);
         if width > side || height > side || width * height > TEXELS_MOST {
             return Err(BakeError::TooLarge { width, height, side: SIDE_MOST, limit: TEXELS_MOST });

@@ -7,7 +7,7 @@ use texere_fabric::{FabricError, FinishError, Structure, Tile};
 use texere_formats::{Cloth, Design, Refusal};
 use texere_render::{Camera, Quality, Renderer, Scene};
 
-use crate::{Area, BakeError, Maps, Material, Side};
+use crate::{Area, BakeError, BakedCloth, Maps, Side};
 
 /// Sides of tubes. Their corners stand .009 radii off the middles of their sides, which is less
 /// than a tenth of a texel of the usual size. With 6, as in usual meshes, the twill of
@@ -30,7 +30,7 @@ const FRONT: f64 = 0.7;
 /// What is baked, and how finely.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
-pub struct Options {
+pub struct BakeOptions {
     /// The size of a texel, mm. If none is given, the mean radius of the yarns has eight texels,
     /// and the maps 2,048 along their longer side at most.
     pub texel_mm: Option<f64>,
@@ -41,7 +41,18 @@ pub struct Options {
     pub tension: f32,
 }
 
-impl Options {
+impl BakeOptions {
+    /// **Errors**: [`BakeError::Area`], [`BakeError::Texel`].
+    fn check(&self) -> Result<(), BakeError> {
+        if let Some(mm) = self.texel_mm.filter(|mm| !(mm.is_finite() && *mm > 0.0)) {
+            return Err(BakeError::Texel { mm });
+        }
+        match self.area {
+            Some([low, size]) => Area { low, size, tiles: false }.check(),
+            None => Ok(()),
+        }
+    }
+
     /// These options with texels of about `mm`.
     #[must_use]
     pub const fn texel_mm(mut self, mm: f64) -> Self {
@@ -66,9 +77,10 @@ pub fn bake(
     design: Design,
     device: &dyn Backend,
     renderer: &Renderer,
-    options: &Options,
+    options: &BakeOptions,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-) -> Result<Material, BakeError> {
+) -> Result<BakedCloth, BakeError> {
+    options.check()?;
     let name = design.name.clone();
     let (design, tile) = tiled(design, options)?;
     let rest = design.rest(device).tension(options.tension).progress(|share| progress(RESTED * share));
@@ -92,7 +104,7 @@ pub fn bake(
         Maps::bake(&mut scene, &yarns, &area, size, Side::Front, origin, |share| progress(first(share)))?;
     let back =
         Maps::bake(&mut scene, &yarns, &area, size, Side::Back, origin, |share| progress(second(share)))?;
-    Ok(Material {
+    Ok(BakedCloth {
         name,
         front,
         back,
@@ -106,7 +118,7 @@ pub fn bake(
 }
 
 /// The design of a tile, if a tile is wanted and the structure repeats.
-fn tiled(mut design: Design, options: &Options) -> Result<(Design, Option<Tile>), BakeError> {
+fn tiled(mut design: Design, options: &BakeOptions) -> Result<(Design, Option<Tile>), BakeError> {
     if options.area.is_some() {
         return Ok((design, None));
     }
@@ -124,7 +136,7 @@ fn stopped(refusal: Refusal) -> BakeError {
     }
 }
 
-fn area(cloth: &Cloth, tile: Option<&Tile>, options: &Options) -> Area {
+fn area(cloth: &Cloth, tile: Option<&Tile>, options: &BakeOptions) -> Area {
     let structure = &cloth.design().structure;
     match (options.area, tile) {
         (Some([low, size]), _) => Area { low, size, tiles: false },
@@ -160,7 +172,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
     use super::*;
-    use texere_core::{Material as YarnMaterial, Section};
+    use texere_core::{Material, Section};
     use texere_cpu::ParallelBackend;
     use texere_fabric::weft::{Beds, Chart, Gauge, KnitYarn, Knitted, Machine};
     use texere_fabric::{Relief, Thread, Weave, Woven, WovenDesign};
@@ -172,9 +184,8 @@ mod tests {
             let thread = |number: u32| Thread { material: number % 2, ..Thread::new(spacing, 0.1) };
             (0..6).map(thread).collect::<Vec<_>>()
         };
-        let materials = [[160, 40, 30], [230, 225, 210]]
-            .map(|srgb| YarnMaterial { srgb, ..YarnMaterial::default() })
-            .to_vec();
+        let materials =
+            [[160, 40, 30], [230, 225, 210]].map(|srgb| Material { srgb, ..Material::default() }).to_vec();
         let cloth =
             Woven::new(drawdown, threads(0.31), threads(0.37), materials, vec![Section::Circle]).unwrap();
         Structure::Woven(WovenDesign::new(cloth, None, Relief::Report).unwrap())
@@ -184,7 +195,7 @@ mod tests {
         let program = Chart::parse("kt\nkk", Beds::One).unwrap().program().unwrap();
         let stitches = Machine::default().knit(&program).unwrap().stitches;
         let (gauge, yarns) = (Gauge::new(0.9, 0.7), vec![KnitYarn::new(0.1)]);
-        let materials = vec![YarnMaterial::default()];
+        let materials = vec![Material::default()];
         Structure::Weft(
             Knitted::new(stitches, gauge, yarns, materials, vec![Section::Circle], [2, 2]).unwrap(),
         )

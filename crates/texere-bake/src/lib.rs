@@ -3,7 +3,7 @@
 //! [`bake`] lets one repeat of a design come to rest amid copies of itself, looks at it straight
 //! from above its face and its back, and keeps what it sees in [`Maps`]: colour, share of yarn,
 //! normal, height, roughness, ambient occlusion, and which yarn lies where. The maps have the
-//! cloth's true size, and go on at their edges. [`Material::write`] puts them into a folder with
+//! cloth's true size, and go on at their edges. [`BakedCloth::write`] puts them into a folder with
 //! the documents that other programs open.
 //!
 //! | file | holds |
@@ -17,12 +17,12 @@
 //!
 //! ```no_run
 //! use std::ops::ControlFlow;
-//! use texere_bake::{Options, bake};
+//! use texere_bake::{BakeOptions, bake};
 //! use texere_render::Renderer;
 //! # fn example(device: &dyn texere_core::Backend, renderer: &Renderer) -> Result<(), Box<dyn std::error::Error>> {
 //! let design = texere_formats::read("designs/denim.toml")?;
 //! let goes_on = |_| ControlFlow::Continue(());
-//! let material = bake(design, device, renderer, &Options::default(), goes_on)?;
+//! let material = bake(design, device, renderer, &BakeOptions::default(), goes_on)?;
 //! material.write("denim")?;
 //! # Ok(())
 //! # }
@@ -31,21 +31,21 @@
 mod archive;
 mod area;
 mod bake;
+mod baked_cloth;
 mod error;
 mod gaps;
 mod images;
 mod maps;
-mod material;
 mod mtlx;
 mod occlusion;
 mod side;
 mod texel;
 mod u3m;
 
-pub use area::Area;
-pub use bake::{Options, bake};
+use area::Area;
+pub use bake::{BakeOptions, bake};
+pub use baked_cloth::BakedCloth;
 pub use error::BakeError;
 pub use maps::Maps;
-pub use material::Material;
 pub use occlusion::occlusion;
-pub use side::Side;
+use side::Side;

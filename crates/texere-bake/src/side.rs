@@ -2,7 +2,7 @@
 
 /// The side of a cloth that is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Side {
+pub(crate) enum Side {
     /// The face, from above.
     Front,
     /// The back, with the cloth turned over sideways.

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use cloth::{JERSEY, TWILL, baked};
 use serde_json::Value;
-use texere_bake::{BakeError, Options};
+use texere_bake::{BakeError, BakeOptions};
 
 fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
@@ -75,7 +75,7 @@ fn u3m_is_as_its_schema_says() {
     let parent = tempfile::tempdir().unwrap();
     for (name, text, kind) in [("twill", TWILL, "Woven"), ("jersey", JERSEY, "Knit")] {
         let folder = parent.path().join(name);
-        let material = baked(text, &Options::default());
+        let material = baked(text, &BakeOptions::default());
         let [u3m, ..] = material.write(&folder).unwrap();
         let document: Value = serde_json::from_slice(&fs::read(folder.join(u3m)).unwrap()).unwrap();
         assert_eq!(keys(&document), ["custom", "material", "schema"]);
@@ -152,7 +152,7 @@ fn png_of(path: &Path) -> Vec<[u16; 3]> {
 fn maps_come_back_from_their_files() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("twill");
-    let material = baked(TWILL, &Options::default());
+    let material = baked(TWILL, &BakeOptions::default());
     material.write(&folder).unwrap();
     let maps = &material.back;
     let exr = |map: &str| {
@@ -235,7 +235,7 @@ fn unpacked(bytes: &[u8]) -> BTreeMap<String, Vec<u8>> {
 fn u3ma_holds_what_u3m_names() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("jersey");
-    let [u3m, u3ma, mtlx] = baked(JERSEY, &Options::default()).write(&folder).unwrap();
+    let [u3m, u3ma, mtlx] = baked(JERSEY, &BakeOptions::default()).write(&folder).unwrap();
     let files = unpacked(&fs::read(folder.join(&u3ma)).unwrap());
     assert_eq!(files.len(), 18);
     for (name, content) in &files {
@@ -256,7 +256,7 @@ fn a_folder_with_files_in_it_stays() {
     let parent = tempfile::tempdir().unwrap();
     let folder = parent.path().join("cloth");
     fs::create_dir(&folder).unwrap();
-    let material = baked(JERSEY, &Options::default().texel_mm(0.2));
+    let material = baked(JERSEY, &BakeOptions::default().texel_mm(0.2));
     // An empty folder is filled.
     material.write(&folder).unwrap();
     let before: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();

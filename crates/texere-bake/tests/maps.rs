@@ -7,14 +7,14 @@ mod cloth;
 use std::ops::ControlFlow;
 
 use cloth::{JERSEY, TWILL, baked, design, renderer};
-use texere_bake::{BakeError, Maps, Options, bake};
+use texere_bake::{BakeError, BakeOptions, Maps, bake};
 use texere_core::{Origin, Settings};
 use texere_cpu::ParallelBackend;
 use texere_render::{Camera, Layers};
 
 #[test]
 fn maps_have_the_size_and_the_yarns_of_the_repeat() {
-    let material = baked(TWILL, &Options::default().texel_mm(0.02));
+    let material = baked(TWILL, &BakeOptions::default().texel_mm(0.02));
     // Three threads of the weave and two colours: six ends; three picks.
     let size = [60.0 / 22.0, 30.0 / 18.0];
     for (maps, axis) in [(&material.front, 0), (&material.front, 1), (&material.back, 0)] {
@@ -51,7 +51,7 @@ fn maps_have_the_size_and_the_yarns_of_the_repeat() {
 /// face, with left and right exchanged. The maps have more than one piece.
 #[test]
 fn gaps_go_through() {
-    let material = baked(TWILL, &Options::default().texel_mm(0.008));
+    let material = baked(TWILL, &BakeOptions::default().texel_mm(0.008));
     let (front, back) = (&material.front, &material.back);
     assert_eq!(front.size, back.size);
     let [width, height] = front.size.map(|texels| texels as usize);
@@ -89,7 +89,7 @@ fn bytes(linear: &[[f32; 3]]) -> Vec<u8> {
 fn maps_look_like_the_geometry() {
     for (name, text) in [("twill", TWILL), ("jersey", JERSEY)] {
         let (low, size) = ([1.0, 1.0], [1.2, 0.9]);
-        let options = Options::default().area(low, size).texel_mm(0.01);
+        let options = BakeOptions::default().area(low, size).texel_mm(0.01);
         let maps = baked(text, &options).front;
         let device = ParallelBackend::open().unwrap();
         let resting = design(text).rest(&device).run().unwrap();
@@ -123,11 +123,11 @@ fn maps_look_like_the_geometry() {
 
 #[test]
 fn what_can_not_be_baked_is_refused() {
-    let refused = |text: &str, options: &Options| {
+    let refused = |text: &str, options: &BakeOptions| {
         let device = ParallelBackend::open().unwrap();
         bake(design(text), &device, &renderer(), options, |_| ControlFlow::Continue(())).unwrap_err()
     };
-    let usual = Options::default();
+    let usual = BakeOptions::default();
     assert!(matches!(refused(TWILL, &usual.texel_mm(0.0)), BakeError::Texel { .. }));
     assert!(matches!(refused(TWILL, &usual.texel_mm(f64::NAN)), BakeError::Texel { .. }));
     assert!(matches!(refused(TWILL, &usual.texel_mm(1e-6)), BakeError::TooLarge { .. }));

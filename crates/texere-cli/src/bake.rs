@@ -1,6 +1,6 @@
 //! `texere bake`
 
-use texere::bake::{Options, bake};
+use texere::picture::bake::{BakeOptions, bake};
 
 use crate::args::BakeArgs;
 use crate::fail::Fail;
@@ -8,11 +8,12 @@ use crate::terminal::line;
 use crate::{drivers, print, progress, reading};
 
 pub(crate) fn run(args: &BakeArgs) -> Result<(), Fail> {
+    texere::write::vacant(&args.output)?;
     let renderer = drivers::quietly(|| texere::picture::open_renderer(&args.device))?;
     let mut design = reading::design(&args.design)?;
     design.settle = args.rest.settles().unwrap_or(design.settle);
     let device = drivers::quietly(|| texere::open(&args.device))?;
-    let mut options = Options::default();
+    let mut options = BakeOptions::default();
     (options.texel_mm, options.area) = (args.texel, args.area);
     let material =
         progress::during("baking", |bar| bake(design, &*device, &renderer, &options, progress::share(bar)))?;

@@ -6,10 +6,10 @@ use std::iter::successors;
 use std::path::Path;
 use std::process::ExitCode;
 
-use texere::bake::BakeError;
 use texere::check::ContactError;
 use texere::mesh::PlanError;
 use texere::picture::RenderError;
+use texere::picture::bake::BakeError;
 use texere::read::Refusal;
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::yarn::YarnError;

@@ -71,7 +71,7 @@
 //! | make vertices of 12 bytes, half the usual size | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `picture` (feature `render`) |
-//! | bake cloth to maps that tile, for programs that show it on a plane | `bake` (feature `bake`) |
+//! | bake cloth to maps that tile, for programs that show it on a plane | `picture::bake` (feature `bake`) |
 //! | know how many rings the twist of yarns needs | [`Settings::of`], [`Pipeline::undersampled`] |
 //! | know what is wrong with a cloth | [`check`] |
 //! | write a backend | [`mod@backend`] |
@@ -93,8 +93,7 @@
 //! | [`rest`] | finishing and settling |
 //! | [`check`] | faults and measures |
 //! | [`mesh`] | settings of a mesh, its pieces, its edits, rays |
-//! | `picture` | rendering (feature `render`) |
-//! | `bake` | maps of cloth that tile (feature `bake`) |
+//! | `picture` | rendering (feature `render`); in `picture::bake` maps of cloth (feature `bake`) |
 //! | [`mod@backend`] | what a backend implements and uses |
 //! | `gpu` | devices and buffers of OpenCL and `wgpu` (features `opencl`, `wgpu`) |
 //!
@@ -166,8 +165,6 @@
 //! [`source`](std::error::Error::source).
 
 pub mod backend;
-#[cfg(feature = "bake")]
-pub mod bake;
 pub mod check;
 mod device;
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, OnceLock};
 
-use texere_bake::{Material, Options, bake};
+use texere_bake::{BakeOptions, BakedCloth, bake};
 use texere_cpu::ParallelBackend;
 use texere_formats::Design;
 use texere_render::Renderer;
@@ -44,7 +44,7 @@ pub(crate) fn design(text: &str) -> Design {
     texere_formats::read(&path).unwrap()
 }
 
-pub(crate) fn baked(text: &str, options: &Options) -> Material {
+pub(crate) fn baked(text: &str, options: &BakeOptions) -> BakedCloth {
     let device = ParallelBackend::open().unwrap();
     bake(design(text), &device, &renderer(), options, |_| ControlFlow::Continue(())).unwrap()
 }

@@ -32,7 +32,7 @@ pub fn folder<E: From<WriteError>>(
     fill: impl FnOnce(&Path) -> Result<(), E>,
 ) -> Result<(), E> {
     let path = path.as_ref();
-    free(path).map_err(|source| WriteError::io("create", path, source))?;
+    vacant(path)?;
     let unfinished = UnfinishedFolder::beside(path)?;
     fill(unfinished.path())?;
     for file in files(unfinished.path()).map_err(|source| WriteError::io("write", path, source))? {
@@ -40,12 +40,20 @@ pub fn folder<E: From<WriteError>>(
         let synced = File::open(&file).and_then(|open| open.sync_all());
         synced.map_err(|source| WriteError::io("write", path, source))?;
     }
-    free(path).map_err(|source| WriteError::io("create", path, source))?;
+    vacant(path)?;
     unfinished.finish(path)?;
     Ok(())
 }
 
-/// Makes sure that there is nothing at `path`, or an empty folder.
+/// Makes sure that there is nothing at `path`, or an empty folder. The check is meant for a program
+/// that has much to do before it writes. [`folder`](fn@folder) makes it itself.
+///
+/// **Errors**: [`WriteError::Io`] if there is something else at `path`.
+pub fn vacant(path: impl AsRef<Path>) -> Result<(), WriteError> {
+    let path = path.as_ref();
+    free(path).map_err(|source| WriteError::io("create", path, source))
+}
+
 fn free(path: &Path) -> io::Result<()> {
     match fs::read_dir(path) {
         Err(error) if error.kind() == ErrorKind::NotFound && fs::symlink_metadata(path).is_err() => Ok(()),

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use serde_json::{Value, json};
-use texere_core::Material as Yarn;
+use texere_core::Material;
 use texere_formats::write;
 
 use crate::images::Map;
@@ -18,7 +18,7 @@ const NAME_MOST: usize = 60;
 /// A baked cloth: maps of its face and of its back, and what a program that shows cloth asks for.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Material {
+pub struct BakedCloth {
     /// The design's name.
     pub name: String,
     /// The face.
@@ -36,10 +36,10 @@ pub struct Material {
     /// Width and height of the preview, pixels, and its red, green and blue.
     pub preview: ([u32; 2], Vec<u8>),
     /// The materials of the yarns.
-    pub(crate) yarns: Vec<Yarn>,
+    pub(crate) yarns: Vec<Material>,
 }
 
-impl Material {
+impl BakedCloth {
     /// Writes the material's maps and documents into a new folder at `path`. There is either all of
     /// it or nothing. Returns the names of the documents: U3M, U3MA and MaterialX.
     ///

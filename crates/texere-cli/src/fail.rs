@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use texere::check::ContactError;
 use texere::mesh::PlanError;
 use texere::picture::RenderError;
+use texere::picture::bake::BakeError;
 use texere::read::Refusal;
 use texere::rest::{CrossingsError, FinishError, SettlingError};
 use texere::yarn::YarnError;
@@ -241,6 +242,21 @@ impl From<RenderError> for Fail {
             RenderError::Backend(error) => error.into(),
             RenderError::Plan(error) => error.into(),
             _ => Self { code: USAGE, source: error.into() },
+        }
+    }
+}
+
+impl From<BakeError> for Fail {
+    fn from(error: BakeError) -> Self {
+        match error {
+            BakeError::Design(error) => error.into(),
+            BakeError::Render(error) => error.into(),
+            BakeError::Write(error) => error.into(),
+            BakeError::Area { .. }
+            | BakeError::Texel { .. }
+            | BakeError::TooLarge { .. }
+            | BakeError::Empty => Self { code: USAGE, source: error.into() },
+            _ => Self { code: WORLD, source: error.into() },
         }
     }
 }

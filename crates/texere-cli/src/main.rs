@@ -5,6 +5,7 @@
 //! `TEXERE_SIMD` is wrong; 3 the design is wrong; 4 `check` found faults.
 
 mod args;
+mod bake;
 mod check;
 mod convert;
 mod cores;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(&args),
         Command::Draft(args) => draft::run(&args),
         Command::Convert(args) => convert::run(&args),
+        Command::Bake(args) => bake::run(&args),
         Command::Render(args) => render::run(&args),
         #[cfg(feature = "view")]
         Command::View(args) => view::run(&args),

@@ -44,6 +44,7 @@ mod reach;
 mod settling;
 mod structure;
 mod subject;
+mod tile;
 mod warning;
 pub mod warp;
 pub mod weft;
@@ -61,6 +62,7 @@ pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, Settled, settle};
 pub use structure::Structure;
+pub use tile::Tile;
 pub use warning::FabricWarning;
 pub(crate) use woven::POINTS_MAX;
 pub use woven::{

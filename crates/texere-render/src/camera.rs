@@ -77,6 +77,8 @@ pub struct Camera {
     pub(crate) toward: Vec3,
     pub(crate) up: Vec3,
     pub(crate) projection: Projection,
+    /// The width of a pixel, divided by its height.
+    pub(crate) stretch: f64,
     /// Whether all that is nearer to the eye than the target is cut away.
     pub(crate) cuts: bool,
     /// Whether the cloth lies on its face.
@@ -108,6 +110,41 @@ impl Camera {
         Ok(Self::straight(extent, size, size[1] as f32 * scale))
     }
 
+    /// A rectangle of the cloth from straight above its face. `low` is the rectangle's lower left
+    /// corner (x, y), and `shown` its width and height, mm. The picture shows exactly the
+    /// rectangle, so its pixels need not be square. A map that tiles is such a picture of one
+    /// repeat.
+    ///
+    /// ```
+    /// # use texere_core::{ControlPoint, Yarn, Yarns};
+    /// # use texere_render::{Camera, Extent};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 10.0].map(|x| ControlPoint::new(x, 2.0, 0.0, 0.25)));
+    /// # let extent = Extent::of(&yarns.build()?);
+    /// // 3 mm by 1 mm in 20 by 20 pixels.
+    /// let camera = Camera::plan(&extent, [4.0, 1.5], [3.0, 1.0], [20, 20])?;
+    /// let corner = camera.ray([20.0, 0.0]).at(0.0);
+    /// assert!((corner[0] - 7.0).abs() < 1e-6 && (corner[1] - 2.5).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// **Errors**: [`RenderError::Camera`].
+    pub fn plan(
+        extent: &Extent,
+        low: [f32; 2],
+        shown: [f32; 2],
+        size: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        let low = point(low)?;
+        let width = positive("a width (mm)", shown[0])?;
+        let height = positive("a height (mm)", shown[1])?;
+        Ok(Self {
+            target: Vec3::new(low[0] + width * 0.5, low[1] + height * 0.5, extent.middle().z),
+            stretch: f64::from(width / height) / f64::from(aspect(size)),
+            ..Self::straight(extent, size, height)
+        })
+    }
+
     fn straight(extent: &Extent, size: [u32; 2], height: f32) -> Self {
         Self {
             size,
@@ -115,6 +152,7 @@ impl Camera {
             toward: Vec3::Z,
             up: Vec3::Y,
             projection: Projection::Orthographic { height },
+            stretch: 1.0,
             cuts: false,
             is_over: false,
             extent: *extent,
@@ -165,6 +203,7 @@ impl Camera {
             toward: if cut == Cut::Warp { Vec3::NEG_Y } else { Vec3::X },
             up: Vec3::Z,
             projection: Projection::Orthographic { height: width / aspect(size) },
+            stretch: 1.0,
             cuts: true,
             is_over: false,
             extent: *extent,
@@ -246,6 +285,7 @@ impl Camera {
             toward,
             up,
             projection: projection(distance),
+            stretch: 1.0,
             cuts: false,
             is_over: toward.z < 0.0,
             extent: *extent,
@@ -260,6 +300,7 @@ impl Camera {
             toward: Vec3::new(sine * height.cos(), -cosine * height.cos(), height.sin()),
             up: Vec3::Z,
             projection: portrait(1.0),
+            stretch: 1.0,
             cuts: false,
             is_over: false,
             extent: *extent,
@@ -285,9 +326,10 @@ impl Camera {
         across(self.up, self.toward)
     }
 
-    /// The width of the camera's pictures, divided by their height.
+    /// The length that the width of the camera's pictures shows, divided by the length that their
+    /// height shows.
     pub(crate) fn aspect(&self) -> f32 {
-        aspect(self.size)
+        (f64::from(aspect(self.size)) * self.stretch) as f32
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a whole picture shows, pixel by pixel, as numbers.
 
 use std::f32::consts::TAU;
+use std::ops::ControlFlow;
 
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
@@ -9,7 +10,8 @@ use wgpu::{BufferUsages, Extent3d, Origin3d, TexelCopyBufferInfo, TexelCopyBuffe
 use crate::mapped::read_mapped;
 use crate::screen::Screen;
 use crate::seen::{DEPTH_BYTES, MARKS, PLACE_BYTES};
-use crate::{Camera, RenderError, Scene};
+use crate::watch::Watch;
+use crate::{Camera, Quality, RenderError, Scene};
 
 /// What a picture shows in each pixel, rows from the top. A pixel counts as its first sample does,
 /// which lies within half a pixel of its middle; [`Scene::seen_at`] takes that sample, too.
@@ -96,6 +98,23 @@ impl Scene {
             })?;
         }
         Ok(Some(Layers::of([width, height], pixels)))
+    }
+
+    /// What a view shows in each pixel, without a picture: nothing is lit. Pixels are not
+    /// supersampled, and single fibres are left out. `progress` gets the share of the work done, as
+    /// in [`Scene::picture_with_progress`].
+    ///
+    /// **Errors**: those of [`Scene::picture_with_progress`].
+    pub fn view_layers(
+        &mut self,
+        camera: &Camera,
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Layers, RenderError> {
+        let watch = &mut Watch::new(&mut progress);
+        self.ready(watch)?;
+        self.look(camera, Quality { supersampling: 1, hairs: false })?;
+        self.drawn(watch, |_, _| Ok(()))?;
+        Ok(self.layers()?.unwrap_or_else(|| Layers::of([0; 2], Vec::new())))
     }
 
     /// Copies the samples of `count` rows of the picture to the host, and passes them to `take`.

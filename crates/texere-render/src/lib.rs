@@ -40,3 +40,4 @@ pub use layers::Layers;
 pub use renderer::Renderer;
 pub use scene::{DevicePicture, Picture, PictureTimings, Quality, Scene, picture_sides};
 pub use seen::Seen;
+pub use uniform::surface_width;

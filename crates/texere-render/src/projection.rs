@@ -49,7 +49,7 @@ impl Camera {
         let [right, above] = self.across().map(|axis| axis.as_dvec3().normalize());
         let (target, toward) = (self.target.as_dvec3(), self.toward.as_dvec3().normalize());
         let half = 0.5 * self.exact_height_at_target();
-        let aside = right * (across[0] * half * width / height) + above * (across[1] * half);
+        let aside = right * (across[0] * half * width / height * self.stretch) + above * (across[1] * half);
         let (origin, direction) = match self.projection {
             Projection::Orthographic { .. } => {
                 let near = if self.cuts { 0.0 } else { self.depths()[0] };

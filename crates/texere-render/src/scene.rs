@@ -346,21 +346,11 @@ impl Scene {
         quality: Quality,
         watch: &mut Watch<'_>,
     ) -> Result<DevicePicture, RenderError> {
-        watch.tell(0.0)?;
-        if let Some(submission) = self.under_way.clone() {
-            watch.wait(&self.renderer.device, &submission)?;
-            self.under_way = None;
-        }
+        self.ready(watch)?;
         let start = Instant::now();
         let texture = self.look(camera, quality)?;
         let screened = Instant::now();
-        // After a picture that was not finished, `seen_at` finds nothing at any point.
-        let drawn = self.draw(watch).map(|()| Instant::now());
-        let lit = drawn.and_then(|drawn| self.shade(watch).map(|()| drawn));
-        let drawn = lit.inspect_err(|_| {
-            self.camera = None;
-            self.under_way = watch.take_under_way();
-        })?;
+        let drawn = self.drawn(watch, |scene, watch| scene.shade(watch))?;
         let timings = PictureTimings {
             screen: screened - start,
             draw: drawn - screened,
@@ -368,6 +358,30 @@ impl Scene {
             copy: Duration::ZERO,
         };
         Ok(DevicePicture { texture, timings })
+    }
+
+    /// Waits for what the device still works on after a picture that was stopped.
+    pub(crate) fn ready(&mut self, watch: &mut Watch<'_>) -> Result<(), RenderError> {
+        watch.tell(0.0)?;
+        if let Some(submission) = self.under_way.clone() {
+            watch.wait(&self.renderer.device, &submission)?;
+            self.under_way = None;
+        }
+        Ok(())
+    }
+
+    /// Draws all chunks, then does what comes `after`. Returns when all chunks were drawn. After an
+    /// error, [`Scene::seen_at`] finds nothing at any point, since the picture is not finished.
+    pub(crate) fn drawn(
+        &mut self,
+        watch: &mut Watch<'_>,
+        after: impl FnOnce(&Self, &mut Watch<'_>) -> Result<(), RenderError>,
+    ) -> Result<Instant, RenderError> {
+        let drawn = self.draw(watch).map(|()| Instant::now());
+        drawn.and_then(|drawn| after(self, watch).map(|()| drawn)).inspect_err(|_| {
+            self.camera = None;
+            self.under_way = watch.take_under_way();
+        })
     }
 
     /// Makes room for a picture, and sends the view. Returns the picture's texture.

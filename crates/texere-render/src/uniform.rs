@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use texere_core::Yarns;
+use texere_core::{Yarn, Yarns};
 
 use crate::camera::Projection;
 use crate::{Background, Camera};
@@ -125,6 +125,16 @@ fn key_light(camera: &Camera, up: Vec3) -> Vec3 {
     (right * -0.58 + beyond * 0.3 + height * 0.76).normalize()
 }
 
+/// The width of the highlight on a yarn, radians: the standard deviation of the directions in which
+/// its fibres lie along the surface. A yarn without twist is filament, smooth as silk, and a
+/// twisted yarn spun staple.
+///
+/// **Source**: widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
+#[must_use]
+pub fn surface_width(yarn: &Yarn) -> f32 {
+    if yarn.twist == 0.0 { 9.0_f32 } else { 16.0 }.to_radians()
+}
+
 /// `YarnLook` of `shade.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -141,19 +151,16 @@ const _: () = assert!(size_of::<YarnLook>() == 32);
 
 impl YarnLook {
     /// The looks of all yarns of a fabric. `ring_lengths` has the mean distance from ring to ring
-    /// of each yarn, mm. A yarn without twist is drawn as filament, smooth as silk, and a twisted
-    /// yarn as spun staple. Widths are of the order that Sadeghi et al. 2013 measured on silk and
-    /// on linen.
+    /// of each yarn, mm.
     pub(crate) fn all(yarns: &Yarns, ring_lengths: &[f32]) -> Vec<Self> {
-        let degrees = f32::to_radians;
-        let look = |(yarn, &ring_length): (&texere_core::Yarn, &f32)| {
+        let look = |(yarn, &ring_length): (&Yarn, &f32)| {
             let color = yarns.materials()[yarn.material as usize].linear_rgb();
-            let (surface, volume, grain, diffuse) =
-                if yarn.twist == 0.0 { (9.0, 16.0, 0.35, 0.35) } else { (16.0, 28.0, 0.6, 0.5) };
+            let (volume, grain, diffuse) =
+                if yarn.twist == 0.0 { (16.0_f32, 0.35, 0.35) } else { (28.0, 0.6, 0.5) };
             Self {
                 color,
-                surface_width: degrees(surface),
-                volume_width: degrees(volume),
+                surface_width: surface_width(yarn),
+                volume_width: volume.to_radians(),
                 grain,
                 diffuse,
                 ring_length,

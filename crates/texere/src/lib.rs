@@ -71,6 +71,7 @@
 //! | make vertices of 12 bytes, half the usual size | [`Pipeline::packed`], [`Session::packed`], [`Quantum`] |
 //! | know yarn, angle and length along the yarn of each vertex | [`Pipeline::attributes`], [`Live::keep_attributes`] |
 //! | make pictures | `picture` (feature `render`) |
+//! | bake cloth to maps that tile, for programs that show it on a plane | `picture::bake` (feature `bake`) |
 //! | know how many rings the twist of yarns needs | [`Settings::of`], [`Pipeline::undersampled`] |
 //! | know what is wrong with a cloth | [`check`] |
 //! | write a backend | [`mod@backend`] |
@@ -92,7 +93,7 @@
 //! | [`rest`] | finishing and settling |
 //! | [`check`] | faults and measures |
 //! | [`mesh`] | settings of a mesh, its pieces, its edits, rays |
-//! | `picture` | rendering (feature `render`) |
+//! | `picture` | rendering (feature `render`); in `picture::bake` maps of cloth (feature `bake`) |
 //! | [`mod@backend`] | what a backend implements and uses |
 //! | `gpu` | devices and buffers of OpenCL and `wgpu` (features `opencl`, `wgpu`) |
 //!
@@ -106,6 +107,7 @@
 //! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
 //! | `opencl`, `wgpu` | GPU backends |
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
+//! | `bake` | maps of cloth that tile, as PNG, EXR, U3M and MaterialX; brings `render` |
 //! | `pictures` | PNG files of drafts and pictures |
 //! | `images` | point paper in design files |
 //! | `serde` | reports of a cloth, which serialize |

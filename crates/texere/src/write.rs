@@ -1,7 +1,7 @@
 //! Files: meshes in pieces, saved yarns, pictures, drafts and designs.
 //!
 //! [`texere::write`](fn@crate::write) writes a whole mesh. Each function that writes a file, except
-//! [`file()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
+//! [`file()`] and [`folder()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
 //! the caller's.
 //!
 //! | to | use |
@@ -13,7 +13,7 @@
 //! | write a design that is read again | `wif`, `toml` (features of these names) |
 //! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
 //! | write a picture | `picture` (feature `pictures`) |
-//! | write any file so that it appears whole or not at all | [`file()`] |
+//! | write any file, or a folder of files, so that it appears whole or not at all | [`file()`], [`folder()`], [`vacant`] |
 //! | make sure that no file is replaced that was read | [`Output`] |
 //!
 //! ```
@@ -30,8 +30,8 @@
 //! ```
 
 pub use texere_formats::write::{
-    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, mesh_to, repeat, repeat_to, run,
-    run_to, stream, stream_to, yarns, yarns_to,
+    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, folder, mesh_to, repeat,
+    repeat_to, run, run_to, stream, stream_to, vacant, yarns, yarns_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{

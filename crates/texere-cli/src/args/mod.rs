@@ -1,5 +1,6 @@
 //! The command line.
 
+mod bake;
 mod path;
 mod render;
 mod settings;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
+pub(crate) use bake::BakeArgs;
 use path::{file_of, mesh_file};
 pub(crate) use path::{is_curves, is_yarns};
 use render::point;
@@ -45,6 +47,8 @@ pub(crate) enum Command {
     Draft(DraftArgs),
     /// Write a design as a WIF draft or as a design file
     Convert(ConvertArgs),
+    /// Bake a design's cloth to maps that tile, with U3M and MaterialX documents
+    Bake(BakeArgs),
     /// Make a picture of a design's cloth
     Render(RenderArgs),
     /// Show a design's cloth in a window, to turn, to edit, and to watch while its file changes

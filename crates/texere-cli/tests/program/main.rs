@@ -1,6 +1,7 @@
 //! The program as a user runs it: what it prints, what it writes, how it exits.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
+mod bake;
 mod bounds;
 mod check;
 mod cli;

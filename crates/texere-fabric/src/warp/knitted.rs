@@ -154,8 +154,18 @@ impl WarpKnitted {
     }
 
     /// The numbers of wales and courses after which the patterns of all bars repeat.
-    pub(super) const fn repeat_size(&self) -> [u32; 2] {
+    pub(crate) const fn repeat_size(&self) -> [u32; 2] {
         self.repeat
+    }
+
+    /// One smallest repeat of the cloth, copied `copies` times along x and y.
+    ///
+    /// **Errors**: the errors of [`WarpKnitted::new`] for too many copies.
+    pub(crate) fn with_copies(&self, copies: [u32; 2]) -> Result<Self, FabricError> {
+        let Self { bars, gauge, yarns, materials, sections, .. } = self.clone();
+        let [wales, courses] = self.repeat;
+        let cloth = Self::new(bars, gauge, wales, courses, yarns, materials, sections, copies)?;
+        Ok(Self { cells: self.cells, ..cloth })
     }
 
     /// Number of wales and of courses in the whole cloth.

@@ -104,6 +104,19 @@ impl Knitted {
         if self.stitches.repeat.is_some() { self.copies } else { [1, 1] }
     }
 
+    /// Wales and courses of the smallest repeat. None for a cloth that does not repeat.
+    pub(crate) const fn repeat_size(&self) -> Option<[u32; 2]> {
+        self.stitches.repeat
+    }
+
+    /// The cloth with another number of copies of its repeat along x and y.
+    ///
+    /// **Errors**: the errors of [`Knitted::new`] for too many copies.
+    pub(crate) fn with_copies(&self, copies: [u32; 2]) -> Result<Self, FabricError> {
+        let Self { stitches, gauge, yarns, materials, sections, .. } = self.clone();
+        Ok(Self::new(stitches, gauge, yarns, materials, sections, copies)?.with_cells(self.cells))
+    }
+
     /// Number of wales and of courses in the whole cloth.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {

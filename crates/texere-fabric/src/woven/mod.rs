@@ -24,6 +24,7 @@ mod selvedge;
 mod sett;
 mod shape;
 mod thread;
+mod tile;
 mod weave;
 mod yarns;
 

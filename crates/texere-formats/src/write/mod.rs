@@ -29,6 +29,9 @@
 //! handles a signal calls [`abandon`] before it ends. The next write in a folder removes files that
 //! a killed process left there. An [`Output`] says which files must not be replaced.
 //!
+//! [`folder`](fn@folder) does the same for a folder of files, but never replaces one that has files
+//! in it.
+//!
 //! Each function that writes a file, except [`file`](fn@file), has a twin whose name ends in `_to`.
 //! The twin writes the same bytes to any writer of the caller's: memory, an archive, a connection.
 //! Twins for meshes need a writer that seeks, because they go back to fill in values that are known
@@ -42,6 +45,7 @@ mod draft;
 mod error;
 mod feed;
 mod file;
+mod folder;
 mod format;
 #[cfg(feature = "glb")]
 mod glb;
@@ -70,6 +74,7 @@ pub use draft::{
 };
 pub use error::WriteError;
 pub use file::file;
+pub use folder::{folder, vacant};
 pub use format::Format;
 pub use mesh::{Written, mesh, mesh_to, run, run_to, stream, stream_to};
 pub use output::Output;

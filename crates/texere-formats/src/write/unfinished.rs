@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use same_file::Handle;
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempDir};
 
 use super::WriteError;
 use super::output::FilePlace;
@@ -67,7 +67,54 @@ pub fn abandon() {
     registry.abandoned = true;
     for file in std::mem::take(&mut registry.files) {
         // A file that can't be removed now is removed by a later write.
-        let _ = fs::remove_file(file);
+        let _ = if file.is_dir() { fs::remove_dir_all(file) } else { fs::remove_file(file) };
+    }
+}
+
+/// A folder with a temporary name, which takes its place with [`UnfinishedFolder::finish`].
+#[derive(Debug)]
+pub(super) struct UnfinishedFolder {
+    folder: TempDir,
+    entry: Entry,
+}
+
+impl UnfinishedFolder {
+    /// Starts an empty folder beside `path`.
+    pub(super) fn beside(path: &Path) -> Result<Self, WriteError> {
+        let failed = |source| WriteError::io("create", path, source);
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let mut registry = registry_in_use().map_err(failed)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(PREFIX).rand_bytes(RANDOM).suffix(ENDING);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // The folder gets the permissions of any new folder, less the umask.
+            builder.permissions(fs::Permissions::from_mode(0o777));
+        }
+        let folder = builder.tempdir_in(parent.unwrap_or(Path::new("."))).map_err(failed)?;
+        let entry = Entry(folder.path().to_owned());
+        registry.files.insert(entry.0.clone());
+        Ok(Self { folder, entry })
+    }
+
+    /// The folder's path until it is finished.
+    pub(super) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Gives the folder its name.
+    pub(super) fn finish(self, path: &Path) -> Result<(), WriteError> {
+        let Self { folder, entry } = self;
+        let renamed = registry_in_use().and_then(|_held| {
+            fs::rename(folder.path(), path)?;
+            // There is no folder of the temporary name left to remove.
+            let _ = folder.keep();
+            Ok(())
+        });
+        renamed.map_err(|source| WriteError::io("rename", path, source))?;
+        drop(entry);
+        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! The problem that texere-core settles: the crossings of a cloth's smallest repeat.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 
 use texere_core::crossings::{self, Crossings};
 
@@ -75,22 +76,29 @@ impl Woven {
     /// Numbers of ends and picks after which threads lie and cross as before. Each number is at
     /// least two. If nothing repeats, it is the number of all threads of the set.
     pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
-        self.period_of(|_| None)
+        self.period_of(|_| None::<u32>)
     }
 
     /// Numbers of ends and picks after which threads also weigh the same. A pattern of yarns may be
     /// longer than the weave's repeat.
     pub(in crate::woven) fn repeat_by_weight(&self) -> [usize; 2] {
-        self.period_of(|thread| self.materials()[thread.material as usize].tex)
+        self.period_of(|thread| self.materials()[thread.material as usize].tex.map(f32::to_bits))
     }
 
-    /// Numbers of ends and picks after which threads are alike in `weight`, too.
-    fn period_of(&self, weight: impl Fn(&Thread) -> Option<f32>) -> [usize; 2] {
+    /// Numbers of ends and picks after which threads are also of the same materials and twist. A
+    /// pattern of colours may be longer than the weave's repeat.
+    pub(in crate::woven) fn repeat_by_look(&self) -> [usize; 2] {
+        let twist = |thread: &Thread| u64::from(thread.twist.to_bits());
+        self.period_of(|thread| Some(u64::from(thread.material) << 32 | twist(thread)))
+    }
+
+    /// Numbers of ends and picks after which threads are alike in what `also` says of them, too.
+    fn period_of<T: Hash + Eq>(&self, also: impl Fn(&Thread) -> Option<T>) -> [usize; 2] {
         let (rooms, drawdown) = (rooms(self), self.drawdown());
         let [ends, picks] = [self.warp().len(), self.weft().len()];
         [
-            period(&kinds(self.warp(), &rooms[0], &weight, |end| bits(picks, |pick| drawdown.up(end, pick)))),
-            period(&kinds(self.weft(), &rooms[1], &weight, |pick| bits(ends, |end| drawdown.up(end, pick)))),
+            period(&kinds(self.warp(), &rooms[0], &also, |end| bits(picks, |pick| drawdown.up(end, pick)))),
+            period(&kinds(self.weft(), &rooms[1], &also, |pick| bits(ends, |end| drawdown.up(end, pick)))),
         ]
     }
 }
@@ -104,18 +112,17 @@ pub(super) fn gaps(threads: &[Thread]) -> Vec<f64> {
 }
 
 /// A number for each thread. Threads that are alike and cross alike have the same number.
-fn kinds(
+fn kinds<T: Hash + Eq>(
     threads: &[Thread],
     rooms: &[[f32; 2]],
-    weight: impl Fn(&Thread) -> Option<f32>,
+    also: impl Fn(&Thread) -> Option<T>,
     sides: impl Fn(usize) -> Vec<u64>,
 ) -> Vec<usize> {
     let mut known = HashMap::new();
     let kind = |number: usize| {
         let Thread { spacing_mm, radius_mm, flatness, stiffness, .. } = threads[number];
         let sizes = [radius_mm, flatness, stiffness, rooms[number][0], rooms[number][1]].map(f32::to_bits);
-        let weight = weight(&threads[number]).map(f32::to_bits);
-        (sizes, (spacing_mm as f32).to_bits(), weight, sides(number))
+        (sizes, (spacing_mm as f32).to_bits(), also(&threads[number]), sides(number))
     };
     (0..threads.len())
         .map(|number| {

@@ -9,7 +9,7 @@ use texere::Picker;
 use texere::backend::Plan;
 use texere::picture::{Background, Quality};
 use texere::rest::RestReport;
-use texere::write::Output;
+use texere::write::{CurveFormat, Output};
 use texere::yarn::YarnPlace;
 
 use crate::check::{Clearance, Diagnosis};
@@ -152,13 +152,13 @@ impl Cloth {
         Editing::new(py, &self.cloth, device)
     }
 
-    /// Writes the cloth by the ending of the path: ``.glb`` and ``.ply``, its mesh as :meth:`mesh`
-    /// makes it, piece by piece in bounded memory; ``.yarns``, its yarns to the bit. The file
-    /// appears whole or not at all, and replaces no file of the design.
+    /// Writes the cloth by the ending of the path: ``.glb``, ``.ply``, ``.stl`` and ``.obj``, its
+    /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.bcc`` and ``.usda``, its
+    /// centrelines as curves; ``.yarns``, its yarns to the bit. The file appears whole or not at
+    /// all, and replaces no file of the design.
     ///
-    /// >>> import tempfile, pathlib
-    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
-    /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
+    /// >>> import tempfile, pathlib >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb" >>>
+    /// texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
     /// be written.
@@ -168,6 +168,9 @@ impl Cloth {
         let output = Output::to(&path).sparing(self.cloth.design().files());
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns")) {
             return watch::quietly(py, |_| texere::write::yarns(yarns, output).map(|_| ()));
+        }
+        if CurveFormat::from_path(&path).is_ok() {
+            return watch::quietly(py, |_| texere::write::curves(yarns, output).map(|_| ()));
         }
         let device = watch::quietly(py, |_| device::open(device))?;
         let pipeline = || mesh::pipeline(yarns, settings(yarns, None, None, false));

@@ -65,7 +65,7 @@ mod _texere {
     #[pymodule_export]
     use crate::yarn::YarnSpec;
     #[pymodule_export]
-    use crate::yarns::{Yarns, read_yarns};
+    use crate::yarns::{Yarns, read_curves, read_yarns};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -10,6 +10,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use texere::ControlPoint;
+use texere::read::CurveScale;
+use texere::write::CurveFormat;
 use texere::yarn::{Layout, Material, Section};
 
 use crate::arrays::{given, view};
@@ -61,6 +63,25 @@ pub(crate) struct Yarns {
 #[pyfunction]
 pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::yarns(path))?.yarns))
+}
+
+/// Reads the curves of a ``.bcc`` file as round yarns. The file says neither how thick they are nor
+/// how long its unit is: ``diameter`` is that of all yarns, mm, and ``unit`` the length of the
+/// file's unit, mm. A unit of 1 keeps points to the bit.
+///
+/// >>> import tempfile, pathlib
+/// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.bcc"
+/// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).write(file)
+/// >>> texere.read_curves(file, diameter=0.2).points.tolist()
+/// [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+///
+/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for a diameter or
+/// coordinates out of range.
+#[pyfunction]
+#[pyo3(signature = (path, *, diameter, unit=1.0))]
+pub(crate) fn read_curves(py: Python<'_>, path: PathBuf, diameter: f32, unit: f32) -> PyResult<Yarns> {
+    let scale = CurveScale { unit_mm: unit, diameter_mm: diameter };
+    Ok(Yarns::own(watch::quietly(py, |_| texere::read::curves(path, scale))?))
 }
 
 impl Yarns {
@@ -213,8 +234,9 @@ impl Yarns {
         Mesh::make(py, &self.yarns, settings(&self.yarns, sides, subdivisions, caps), device)
     }
 
-    /// Saves the yarns, to the bit, in a file of :func:`texere.read_yarns`. The file appears whole
-    /// or not at all.
+    /// Saves the yarns by the ending of the path: ``.bcc`` and ``.usda``, their centrelines as
+    /// curves; any other, all of them to the bit, in a file of :func:`texere.read_yarns`. The file
+    /// appears whole or not at all.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.yarns"
@@ -223,7 +245,11 @@ impl Yarns {
     /// Raises :class:`texere.Error` for a file that can't be written.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let yarns: &texere::Yarns = &self.yarns;
-        watch::quietly(py, |_| texere::write::yarns(yarns, path).map(|_| ()))
+        let written = |_: &_| match CurveFormat::from_path(&path) {
+            Ok(_) => texere::write::curves(yarns, path),
+            Err(_) => texere::write::yarns(yarns, path),
+        };
+        watch::quietly(py, |run| written(run).map(|_| ()))
     }
 
     fn __len__(&self) -> usize {

@@ -106,7 +106,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &broken, "-o", &ply], 3, "byte 16: the length in bytes is"),
         (&["mesh", &path("none.yarns"), "-o", &ply], 1, "can't read"),
         (
-            &["mesh", &design, "-o", &path("cloth.obj")],
+            &["mesh", &design, "-o", &path("cloth.fbx")],
             2,
             "there are: glb, ply; and without a mesh: bcc, usda, yarns",
         ),

@@ -108,7 +108,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (
             &["mesh", &design, "-o", &path("cloth.fbx")],
             2,
-            "there are: glb, ply; and without a mesh: bcc, usda, yarns",
+            "there are: glb, ply, stl, obj; and without a mesh: bcc, usda, yarns",
         ),
     ];
     for (args, code, said) in cases {

@@ -9,8 +9,8 @@ use texere_contact::clearance;
 use texere_core::{Pipeline, PipelineError, PlanError, Section, Settings, Topology, Yarns};
 use texere_cpu::ParallelBackend;
 use texere_fabric::{FabricError, FinishError, Structure};
-use texere_formats::read::{self, SavedYarns, read};
-use texere_formats::write::{self, Side};
+use texere_formats::read::{self, CurveScale, SavedYarns, read};
+use texere_formats::write::{self, CurveFormat, Side};
 use texere_formats::{Cloth, Design, Refusal, RestReport, WriteError};
 
 /// The most crossings of a cloth whose yarns are made, and the most control points of a cloth whose
@@ -36,13 +36,16 @@ pub enum Outcome {
 /// # Panics
 ///
 /// If a fault of texere shows: a message is long or would steer a terminal, an error of settling
-/// does not name the file, a draft does not give its cloth, saved yarns are written otherwise than
-/// they were read, the number of points was counted wrongly, a mesh can't be made or has numbers
-/// that are not finite, or a clearance can't be measured.
+/// does not name the file, a draft does not give its cloth, saved yarns or curves are written
+/// otherwise than they were read, the number of points was counted wrongly, a mesh can't be made or
+/// has numbers that are not finite, or a clearance can't be measured.
 #[must_use]
 pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
         return saved(path);
+    }
+    if path.extension().is_some_and(|ending| ending == "bcc") {
+        return curves(path);
     }
     let mut design = match read(path) {
         Ok(design) => design,
@@ -167,6 +170,24 @@ fn saved(path: &Path) -> Outcome {
     assert!(
         std::fs::read(path).is_ok_and(|file| file == again),
         "a file that is another one when it is written again"
+    );
+    meshed(&yarns)
+}
+
+/// Reads curves, writes them again, and makes their mesh and their clearance. Curves that are
+/// written again are the same when they are read again.
+fn curves(path: &Path) -> Outcome {
+    let scale = CurveScale { unit_mm: 1.0, diameter_mm: 0.2 };
+    let yarns = match read::curves(path, scale) {
+        Ok(yarns) => yarns,
+        Err(error) => return Outcome::Refused(chain(&error)),
+    };
+    let mut again = Vec::new();
+    write::curves_to(&yarns, CurveFormat::Bcc, &mut again).expect("a file in memory");
+    let read = read::curves_from("again", &again, scale).expect("a file of the house");
+    assert!(
+        read.points() == yarns.points() && read.layout().offsets() == yarns.layout().offsets(),
+        "curves that are others when they are read again"
     );
     meshed(&yarns)
 }

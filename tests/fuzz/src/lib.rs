@@ -42,11 +42,13 @@ pub enum Reader {
     WarpKnit,
     /// Files of saved yarns.
     Yarns,
+    /// Files of curves.
+    Curves,
 }
 
 impl Reader {
     /// All readers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Wif,
         Self::Design,
         Self::Notation,
@@ -56,6 +58,7 @@ impl Reader {
         Self::Knit,
         Self::WarpKnit,
         Self::Yarns,
+        Self::Curves,
     ];
 
     /// The name of the reader, in lower case.
@@ -71,6 +74,7 @@ impl Reader {
             Self::Knit => "knit",
             Self::WarpKnit => "warp-knit",
             Self::Yarns => "yarns",
+            Self::Curves => "curves",
         }
     }
 }
@@ -115,6 +119,7 @@ impl Input {
                 ("motif.png", image_bytes::plain(random)),
             ],
             Reader::Yarns => vec![("design.yarns", yarn_bytes::mutated(random))],
+            Reader::Curves => vec![("design.bcc", yarn_bytes::mutated_curves(random))],
         };
         Self { files }
     }

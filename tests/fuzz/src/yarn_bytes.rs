@@ -1,8 +1,9 @@
-//! Mutations of files of saved yarns. Half of them get a fitting length and checksum.
+//! Mutations of files of saved yarns, half of which get a fitting length and checksum, and of files
+//! of curves.
 
 use fastrand::Rng;
 use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn, Yarns};
-use texere_formats::write;
+use texere_formats::write::{self, CurveFormat};
 
 use crate::image_bytes::field;
 use crate::text::scrambled;
@@ -14,11 +15,30 @@ const CHECKSUM: usize = 4;
 
 /// A small file of yarns, mutated.
 pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
-    let mut bytes = seed(random);
+    let (yarns, boundary) = seed(random);
+    let mut bytes = Vec::new();
+    write::repeat_to(&yarns, &boundary, &mut bytes).expect("a file in memory");
+    change(&mut bytes, random);
+    if random.bool() {
+        seal(&mut bytes);
+    }
+    bytes
+}
+
+/// A small file of curves, mutated.
+pub(crate) fn mutated_curves(random: &mut Rng) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write::curves_to(&seed(random).0, CurveFormat::Bcc, &mut bytes).expect("a file in memory");
+    change(&mut bytes, random);
+    bytes
+}
+
+/// Changes a file in up to three places.
+fn change(bytes: &mut Vec<u8>, random: &mut Rng) {
     for _ in 0..random.usize(0..4) {
         match random.u8(0..8) {
-            0 => scrambled(&mut bytes, random),
-            1..4 => field(&mut bytes, random),
+            0 => scrambled(bytes, random),
+            1..4 => field(bytes, random),
             // A change of a single bit leaves most numbers valid.
             _ if bytes.is_empty() => {}
             _ => {
@@ -27,10 +47,6 @@ pub(crate) fn mutated(random: &mut Rng) -> Vec<u8> {
             }
         }
     }
-    if random.bool() {
-        seal(&mut bytes);
-    }
-    bytes
 }
 
 fn seal(bytes: &mut [u8]) {
@@ -43,8 +59,8 @@ fn seal(bytes: &mut [u8]) {
     }
 }
 
-/// One to four yarns of random kinds, as they are saved.
-fn seed(random: &mut Rng) -> Vec<u8> {
+/// One to four yarns of random kinds, and how they end.
+fn seed(random: &mut Rng) -> (Yarns, Boundary) {
     let mut yarns = Yarns::builder();
     yarns.material(Material { name: "ecru".into(), tex: Some(30.0), hairiness: 5.0, ..Material::default() });
     yarns.material(Material::default());
@@ -96,7 +112,5 @@ fn seed(random: &mut Rng) -> Vec<u8> {
         yarns = yarns.with_sources((0..count as u32).collect()).expect("a source for each point");
     }
     let boundary = Boundary::new(yarns.layout(), [3.0, 0.0], ends).expect("a sound boundary");
-    let mut bytes = Vec::new();
-    write::repeat_to(&yarns, &boundary, &mut bytes).expect("a file in memory");
-    bytes
+    (yarns, boundary)
 }

@@ -12,7 +12,7 @@ fn what_has_failed_once_does_not_again() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let entry = entry.unwrap().path();
         let name = entry.file_name().unwrap().to_string_lossy().into_owned();
-        let design = ["design.toml", "design.wif", "design.k", "design.yarns"]
+        let design = ["design.toml", "design.wif", "design.k", "design.yarns", "design.bcc"]
             .map(|file| entry.join(file))
             .into_iter()
             .find(|file| file.exists());

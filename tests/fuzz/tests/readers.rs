@@ -57,6 +57,11 @@ fn saved_yarns() {
 }
 
 #[test]
+fn curves() {
+    ten_thousand(Reader::Curves);
+}
+
+#[test]
 fn designs_of_warp_knits() {
     ten_thousand(Reader::WarpKnit);
 }

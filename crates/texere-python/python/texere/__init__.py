@@ -12,6 +12,7 @@ wales, z out of the technical face. Yarns, ends, picks and courses are counted f
 
 from ._texere import (
     Bar,
+    Change,
     Clearance,
     Cloth,
     Contact,
@@ -28,6 +29,7 @@ from ._texere import (
     __version__,
     devices,
     read,
+    read_curves,
     read_yarns,
     warp_knit,
     weave,
@@ -37,6 +39,7 @@ from ._texere import (
 
 __all__ = [
     "Bar",
+    "Change",
     "Clearance",
     "Cloth",
     "Contact",
@@ -53,6 +56,7 @@ __all__ = [
     "__version__",
     "devices",
     "read",
+    "read_curves",
     "read_yarns",
     "warp_knit",
     "weave",

@@ -195,7 +195,7 @@
 // All stitches have the same number of control points.
 #define TEXERE_CELLS_EVEN 1
 
-// Stands in `threading` of a bar for a guide without a yarn.
+// The number that stands for no yarn in `threading` of a bar.
 #define TEXERE_NO_YARN 4294967295
 
 // The front needle knits.
@@ -230,7 +230,8 @@
 // Every other back needle knits, alternating from yarn to yarn and from row to row.
 #define TEXERE_BACKING_BIRDSEYE 1
 
-// Each of the n yarns of a row knits on every n-th back needle, always on the same ones.
+// Each of the n yarns of a row knits on every n-th back needle, and on the same needles in all
+// rows that have the same yarns.
 #define TEXERE_BACKING_LADDER 2
 
 // Threads bend round one another as round threads do, and floats lie flat.
@@ -260,6 +261,13 @@
 
 // Binary PLY, `.ply`.
 #define TEXERE_FORMAT_PLY 1
+
+// Binary STL, `.stl`: triangles without colours.
+#define TEXERE_FORMAT_STL 2
+
+// OBJ, `.obj`. Its materials are in a file beside it whose name ends in `.mtl`. A callback gets
+// the bytes of the `.obj` file alone, which names `materials.mtl`.
+#define TEXERE_FORMAT_OBJ 3
 
 // texere's own form of yarns, `.yarns`.
 #define TEXERE_YARNS_FORMAT_YARNS 0
@@ -562,8 +570,8 @@ typedef struct texere_change {
 typedef struct texere_update {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if the whole mesh was begun: in the first update, and for example after an edit by which a
-  // yarn outgrew its room. Sizes and draws may then have changed, and vertices may have other
+  // 1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
+  // outgrew its room. Sizes and draws may then have changed, and vertices may have other
   // numbers. Else 0.
   uint32_t anew;
   // The ranges that were made again. They are valid until the next update of this live cloth, or
@@ -915,12 +923,13 @@ typedef struct texere_lap {
 typedef struct texere_bar {
   // Its chain: a lap for each course, from the first course knitted on.
   const struct texere_lap *laps;
-  // How many laps, 1 to 4096. After the last one the first one follows again.
+  // How many laps, 1 to 4096. The first lap follows the last one again.
   uint64_t lap_count;
   // The yarn of each guide, counted from 0, or TEXERE_NO_YARN. Null with a `guide_count` of 0:
   // all guides have yarn 0.
   const uint32_t *threading;
-  // How many guides `threading` is for. After the last one it begins again.
+  // How many guides `threading` is for. The guides after them hold the same yarns again, from
+  // the first one of `threading` on.
   uint64_t guide_count;
   // Run-in: length of yarn for a rack of 480 courses, mm. 0: the laps give it.
   double run_in_mm;
@@ -978,14 +987,15 @@ typedef struct texere_jacquard {
   uint32_t guides;
   // How many rounds of the chain the image is high.
   uint32_t rounds;
-  // The colour of each cell, counted from 0: `guides` times `rounds` of them, round after round
-  // from the first one knitted, and in each round from guide 0 on.
+  // The number of each cell's colour, counted from 0. There are `guides` times `rounds` cells:
+  // those of the round knitted first, from guide 0 on, then those of the next round.
   const uint8_t *colors;
   // How many colours there are, 1 to 256.
   uint64_t color_count;
-  // What each colour does at each lap of the chain: two numbers, each 0 or 1. They are the
-  // needles by which the beginning and the end of the lap are moved towards the high numbers.
-  // Colour after colour, and in each colour lap after lap: 2 times `lap_count` for a colour.
+  // Two numbers, each 0 or 1, for each colour at each lap of the chain. They are the needles by
+  // which the colour moves the beginning and the end of the lap towards the high numbers. The
+  // numbers of the first colour come first, lap after lap, 2 times `lap_count` of them; then
+  // those of the next colour.
   const uint8_t *shifts;
 } texere_jacquard;
 
@@ -995,9 +1005,11 @@ typedef struct texere_warp_knit {
   uint32_t struct_size;
   // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
-  // How many wales: a multiple of the number after which the threadings of all bars begin again.
+  // How many wales: a multiple of `guide_count` of every bar that has a threading, and of
+  // `guides` of every Jacquard.
   uint32_t wales;
-  // How many courses: a multiple of the number after which the chains of all bars begin again.
+  // How many courses: a multiple of `lap_count` of every bar, and for a Jacquard bar of
+  // `lap_count` times `rounds`.
   uint32_t courses;
   // How many copies of these wales and courses lie along the courses, and how many along the
   // wales; each 1 or more.
@@ -1037,7 +1049,8 @@ typedef struct texere_stitch {
 typedef struct texere_weft_knit {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // Beds of needles, 1 or 2. With `jacquard` 0: a backing needs two beds, and the others one.
+  // Beds of needles, 1 or 2. With `jacquard` it has to be 0: a Jacquard with a backing is
+  // knitted on two beds, one without on one bed.
   uint32_t beds;
   // A constant whose name begins with TEXERE_CELLS.
   uint32_t cells;
@@ -1082,8 +1095,8 @@ typedef struct texere_weft_knit {
   // The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
   // `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
   // each row from left to right. A row becomes one course for each of its yarns, in the order of
-  // their numbers. Front needles knit the course's yarn where the picture has it, and it floats
-  // past the others.
+  // their numbers. The front needles knit the course's yarn where the picture has that yarn. The
+  // yarn floats past the other front needles.
   const uint32_t *jacquard;
 } texere_weft_knit;
 
@@ -1317,10 +1330,11 @@ void texere_check_free(struct texere_check *check);
 // Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
 // design asks for it. `run` may be null.
 //
-// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` tells. Threads of
-// woven cloth that can't settle at all stay where the structure places them. The call fails with
-// TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with TEXERE_UNSUPPORTED if
-// yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was cancelled.
+// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
+// did. Threads of woven cloth that can't settle at all stay where the structure places them. The
+// call fails with TEXERE_DESIGN if the cloth can't be made or a knit can't settle, with
+// TEXERE_UNSUPPORTED if yarns can't settle on the device, and with TEXERE_CANCELLED if `run` was
+// cancelled.
 enum texere_status texere_cloth_rest(const struct texere_design *design,
                                      const struct texere_device *device,
                                      const struct texere_run *run,
@@ -1338,8 +1352,8 @@ enum texere_status texere_cloth_placed(const struct texere_design *design,
 enum texere_status texere_cloth_report(const struct texere_cloth *cloth,
                                        struct texere_report *report);
 
-// Lends warning `number` of a cloth, counted from 0: writes its address to `words`. It is UTF-8
-// that ends with a zero byte, valid until the cloth is freed.
+// Lends warning `number` of a cloth, counted from 0: writes the address of the warning's text to
+// `words`. The text is UTF-8 that ends with a zero byte, valid until the cloth is freed.
 //
 // Fails with TEXERE_ARGUMENT if the cloth has no warning of that number.
 enum texere_status texere_cloth_warning(const struct texere_cloth *cloth,
@@ -1356,7 +1370,7 @@ void texere_cloth_free(struct texere_cloth *cloth);
 // knitting machine (`.k`).
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
-// design; `texere_error_place` then says where it is at fault.
+// design; `texere_error_place` then says where the file is at fault.
 enum texere_status texere_design_read(const char *path,
                                       size_t path_length,
                                       struct texere_design **out);
@@ -1385,13 +1399,13 @@ enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
-// Writes woven cloth and hands the bytes of the file to `callback`: the bytes that
-// `texere_design_write` writes. `format` is a constant whose name begins with
+// Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+// `texere_design_write` would write. `format` is a constant whose name begins with
 // TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
 // argument.
 //
 // Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-// number other than 0. The bytes that came before then are not a complete file.
+// number other than 0. The bytes that the callback had been given by then are not a complete file.
 enum texere_status texere_design_write_to(const struct texere_design *design,
                                           uint32_t format,
                                           texere_write_callback callback,
@@ -1625,15 +1639,15 @@ enum texere_status texere_live_keep_attributes(const struct texere_live *live);
 // for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
 // be null. The contents of the room between yarns are undefined.
 //
-// Fails with TEXERE_ARGUMENT before `texere_live_keep_attributes`, for a view that is too small,
-// misaligned or null, and if `texere_live_update` has to be called first. Fails with
-// TEXERE_CANCELLED if `run` was cancelled.
+// Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
+// `texere_live_update` has not been called since then and since the last edit, and for a view that
+// is too small, misaligned or null. Fails with TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_live_attributes(const struct texere_live *live,
                                           const struct texere_run *run,
                                           const struct texere_view *attributes);
 
-// Reads the attributes of the vertices of a range into the caller's memory, such as those of a
-// change of the last update: as many as `change->vertex_count`.
+// Reads the attributes of a range of vertices, for example a change of the last update, into the
+// caller's memory: a `texere_attribute` for each of the `change->vertex_count` vertices.
 //
 // Fails as `texere_live_attributes` does, and with TEXERE_ARGUMENT if the range does not lie
 // within the mesh.
@@ -2024,8 +2038,9 @@ enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
 enum texere_status texere_design_woven(const struct texere_woven *woven,
                                        struct texere_design **out);
 
-// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-// be null. An existing file of that name is replaced only once the new one is complete.
+// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
+// memory. `run` may be null. An existing file of that name is replaced only once the new one is
+// complete.
 //
 // Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
 // cancelled.

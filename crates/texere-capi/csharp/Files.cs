@@ -22,6 +22,10 @@ namespace Texere
         Glb = 0,
         /// <summary>Binary PLY, .ply.</summary>
         Ply = 1,
+        /// <summary>Binary STL, .stl: triangles without colours.</summary>
+        Stl = 2,
+        /// <summary>OBJ, .obj. A callback gets the bytes of that file alone, which names materials.mtl.</summary>
+        Obj = 3,
     }
 
     /// <summary>The forms of yarns in a file.</summary>

@@ -328,6 +328,15 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_FORMAT_PLY = 1;
         /// <summary>
+        ///  Binary STL, `.stl`: triangles without colours.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_STL = 2;
+        /// <summary>
+        ///  OBJ, `.obj`. Its materials are in a file beside it whose name ends in `.mtl`. A callback gets
+        ///  the bytes of the `.obj` file alone, which names `materials.mtl`.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_OBJ = 3;
+        /// <summary>
         ///  texere's own form of yarns, `.yarns`.
         /// </summary>
         internal const uint TEXERE_YARNS_FORMAT_YARNS = 0;
@@ -1254,8 +1263,9 @@ namespace Texere
         internal static extern texere_status texere_design_woven(texere_woven* woven, texere_design** @out);
 
         /// <summary>
-        ///  Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-        ///  be null. An existing file of that name is replaced only once the new one is complete.
+        ///  Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
+        ///  memory. `run` may be null. An existing file of that name is replaced only once the new one is
+        ///  complete.
         ///
         ///  Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
         ///  cancelled.

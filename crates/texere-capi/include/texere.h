@@ -262,6 +262,13 @@
 // Binary PLY, `.ply`.
 #define TEXERE_FORMAT_PLY 1
 
+// Binary STL, `.stl`: triangles without colours.
+#define TEXERE_FORMAT_STL 2
+
+// OBJ, `.obj`. Its materials are in a file beside it whose name ends in `.mtl`. A callback gets
+// the bytes of the `.obj` file alone, which names `materials.mtl`.
+#define TEXERE_FORMAT_OBJ 3
+
 // texere's own form of yarns, `.yarns`.
 #define TEXERE_YARNS_FORMAT_YARNS 0
 
@@ -2031,8 +2038,9 @@ enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
 enum texere_status texere_design_woven(const struct texere_woven *woven,
                                        struct texere_design **out);
 
-// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-// be null. An existing file of that name is replaced only once the new one is complete.
+// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
+// memory. `run` may be null. An existing file of that name is replaced only once the new one is
+// complete.
 //
 // Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
 // cancelled.

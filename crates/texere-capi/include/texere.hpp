@@ -414,7 +414,7 @@ public:
             return texere_plan_write_to(get(), Run::of(run), format, callback, user);
         });
     }
-    // Writes the mesh to a file, `.glb` or `.ply`.
+    // Writes the mesh to a file, `.glb`, `.ply`, `.stl` or `.obj`.
     void write(std::string_view path, const Run *run = nullptr) const {
         check(texere_plan_write(get(), Run::of(run), path.data(), path.size()));
     }

@@ -1,5 +1,7 @@
 //! Measures of a cloth: yarn, weight, thickness, crimp, cover, loops.
 
+use std::hint::black_box;
+
 use texere::check::{Cover, KnitMeasures, Measures};
 
 use crate::argument::slice_mut;
@@ -98,8 +100,11 @@ pub unsafe extern "C" fn texere_cloth_measures(
 
 fn of(measures: &Measures, [width, height]: [f64; 2]) -> texere_measures {
     let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let (crimp, cover, knit) = (measures.crimp, measures.cover, measures.knit);
-    let factor = cover.and_then(|cover| cover.factor);
+    // Compilers may read a part of what is not there before they ask whether it is, and then not use
+    // it. Checkers of memory report that, so the compiler is not told where the parts lie.
+    let (crimp, cover, knit) =
+        black_box((measures.crimp.as_ref(), measures.cover.as_ref(), measures.knit.as_ref()));
+    let factor = black_box(cover.and_then(|cover| cover.factor.as_ref()));
     texere_measures {
         struct_size: size_of::<texere_measures>() as u32,
         wales: knit.map_or(0, |knit| knit.size[0]),
@@ -115,12 +120,12 @@ fn of(measures: &Measures, [width, height]: [f64; 2]) -> texere_measures {
         weft_crimp: known(crimp.map(|crimp| crimp.weft)),
         warp_cover: known(cover.map(|Cover { fraction, .. }| fraction.warp)),
         weft_cover: known(cover.map(|Cover { fraction, .. }| fraction.weft)),
-        cover: known(cover.map(|Cover { cloth, .. }| cloth)),
+        cover: known(cover.map(|Cover { cloth, .. }| *cloth)),
         warp_cover_factor: known(factor.map(|factor| factor.warp)),
         weft_cover_factor: known(factor.map(|factor| factor.weft)),
         cover_factor: known(cover.and_then(|cover| cover.cloth_factor)),
-        loop_length: known(knit.map(|KnitMeasures { loop_length_mm, .. }| loop_length_mm)),
-        loops_per_cm2: known(knit.map(|KnitMeasures { stitch_density, .. }| stitch_density)),
+        loop_length: known(knit.map(|KnitMeasures { loop_length_mm, .. }| *loop_length_mm)),
+        loops_per_cm2: known(knit.map(|KnitMeasures { stitch_density, .. }| *stitch_density)),
         tightness: known(knit.and_then(|knit| knit.tightness)),
     }
 }

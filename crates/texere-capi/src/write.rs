@@ -21,6 +21,11 @@ use crate::structure::choice;
 pub const TEXERE_FORMAT_GLB: u32 = 0;
 /// Binary PLY, `.ply`.
 pub const TEXERE_FORMAT_PLY: u32 = 1;
+/// Binary STL, `.stl`: triangles without colours.
+pub const TEXERE_FORMAT_STL: u32 = 2;
+/// OBJ, `.obj`. Its materials are in a file beside it whose name ends in `.mtl`. A callback gets
+/// the bytes of the `.obj` file alone, which names `materials.mtl`.
+pub const TEXERE_FORMAT_OBJ: u32 = 3;
 
 /// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
 /// 100 MB a second takes a chunk and its triangles in 50 ms.
@@ -34,8 +39,9 @@ impl Planned {
     }
 }
 
-/// Makes the mesh of a plan and writes it to a file, `.glb` or `.ply`, in bounded memory. `run` may
-/// be null. An existing file of that name is replaced only once the new one is complete.
+/// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
+/// memory. `run` may be null. An existing file of that name is replaced only once the new one is
+/// complete.
 ///
 /// Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
 /// cancelled.
@@ -73,7 +79,7 @@ pub unsafe extern "C" fn texere_plan_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let format = choice("format", format, &[Format::Glb, Format::Ply])?;
+        let format = choice("format", format, &[Format::Glb, Format::Ply, Format::Stl, Format::Obj])?;
         let (plan, run) = (get(plan)?, get_any(run)?);
         texere::write::run_to(plan.writing(run)?, plan.yarns.materials(), format, file)?;
         Ok(())

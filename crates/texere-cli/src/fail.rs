@@ -168,7 +168,8 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         | WriteError::TextTooLarge { .. }
         | WriteError::Spared { .. }
         | WriteError::GlbTooLarge { .. }
-        | WriteError::TooManyVertices { .. } => USAGE,
+        | WriteError::TooManyVertices { .. }
+        | WriteError::TooManyFacets { .. } => USAGE,
         WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,
         _ => WORLD,
     });

@@ -152,10 +152,10 @@ impl Cloth {
         Editing::new(py, &self.cloth, device)
     }
 
-    /// Writes the cloth by the ending of the path: ``.glb`` and ``.ply``, its mesh as :meth:`mesh`
-    /// makes it, piece by piece in bounded memory; ``.yarns``, its yarns to the bit; ``.bcc`` and
-    /// ``.usda``, their centrelines as curves. The file appears whole or not at all, and replaces
-    /// no file of the design.
+    /// Writes the cloth by the ending of the path: ``.glb``, ``.ply``, ``.stl`` and ``.obj``, its
+    /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.yarns``, its yarns to
+    /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
+    /// at all, and replaces no file of the design.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"

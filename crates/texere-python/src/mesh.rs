@@ -193,8 +193,8 @@ impl Mesh {
         size_of_val(&self.mesh.vertices[..]) + size_of_val(&self.mesh.indices[..])
     }
 
-    /// Writes the mesh as a ``.glb`` or ``.ply`` file, which appears whole or not at all. It is
-    /// made again while it is written, piece by piece.
+    /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
+    /// not at all. It is made again while it is written, piece by piece.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"

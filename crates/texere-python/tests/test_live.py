@@ -79,3 +79,25 @@ def test_an_edit_that_bends_sharply_keeps_the_rings():
     (change,) = live.changes()
     assert change.yarn == 0
     assert (live.mesh().positions[: change.count][change.vertices] == change.positions).all()
+
+
+def test_a_bump_changes_the_vertices_round_it():
+    """The yarn starts at a number of its own, and what lies far from the bump stays as it is."""
+    cloth = texere.read("designs/plain.toml").placed()
+    live = cloth.edit(device="cpu")
+    assert live.changes() is None
+    offsets = cloth.yarns.offsets.astype(int)
+    points = cloth.yarns.points[offsets[40] : offsets[41]].copy()
+    before = cloth.mesh(device="cpu")
+    points[len(points) // 2, 2] += 0.1
+    live.set_points(40, points)
+    after = live.mesh()
+    own = after.yarn_ids == 40
+    moved = np.flatnonzero((before.positions != after.positions).any(axis=1)[own])
+    changes = live.changes()
+    assert {change.yarn for change in changes} == {40}
+    covered = np.concatenate([np.arange(own.sum())[change.vertices] for change in changes])
+    assert set(moved) <= set(covered) and len(moved) > 0
+    for change in changes:
+        assert (after.positions[own][change.vertices] == change.positions).all()
+    assert len(covered) < own.sum() / 2, (len(covered), own.sum())

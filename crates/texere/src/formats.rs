@@ -46,7 +46,12 @@ fn a_mesh_that_this_build_cannot_write_is_said_to_need_its_feature() {
     let mut yarns = Yarns::builder();
     yarns.yarn(Yarn::default(), &[0.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     let mesh = Pipeline::new(&yarns.build().unwrap()).mesh(&NullBackend::default()).unwrap();
-    for (format, is_there) in [(Format::Glb, cfg!(feature = "glb")), (Format::Ply, cfg!(feature = "ply"))] {
+    for (format, is_there) in [
+        (Format::Glb, cfg!(feature = "glb")),
+        (Format::Ply, cfg!(feature = "ply")),
+        (Format::Stl, cfg!(feature = "stl")),
+        (Format::Obj, cfg!(feature = "obj")),
+    ] {
         let mut out = Cursor::new(Vec::new());
         match mesh_to(&mesh, format, &mut out) {
             Ok(()) => assert!(!out.into_inner().is_empty(), "{format:?}"),

@@ -10,8 +10,8 @@
 //! | know which yarn a pixel shows | [`Scene::seen_at`], which gives a [`Seen`] |
 //! | have depths, normals and yarns of all pixels | [`Scene::layers`], which gives [`Layers`] |
 //!
-//! [`open_renderer`] has an example. With the feature `bake`, `picture::bake` makes maps of cloth that
-//! tile.
+//! [`open_renderer`] has an example. With the feature `bake`, `picture::bake` makes maps of cloth
+//! that tile.
 
 #[cfg(feature = "bake")]
 pub mod bake;

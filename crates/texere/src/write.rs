@@ -1,8 +1,8 @@
 //! Files: meshes in pieces, saved yarns, pictures, drafts and designs.
 //!
 //! [`texere::write`](fn@crate::write) writes a whole mesh. Each function that writes a file, except
-//! [`file()`] and [`folder()`], has a twin whose name ends in `_to`. The twin writes the same bytes to a writer of
-//! the caller's.
+//! [`file()`] and [`folder()`], has a twin whose name ends in `_to`. The twin writes the same bytes
+//! to a writer of the caller's.
 //!
 //! | to | use |
 //! |---|---|

@@ -59,6 +59,8 @@ static unsafe class Classes
         Check((uint)Background.Nothing == Native.TEXERE_BACKGROUND_NOTHING, "Background");
         Check((uint)DesignFormat.Wif == Native.TEXERE_DESIGN_FORMAT_WIF, "DesignFormat");
         Check((uint)MeshFormat.Ply == Native.TEXERE_FORMAT_PLY, "MeshFormat");
+        Check((uint)MeshFormat.Stl == Native.TEXERE_FORMAT_STL, "MeshFormat");
+        Check((uint)MeshFormat.Obj == Native.TEXERE_FORMAT_OBJ, "MeshFormat");
         Check((uint)YarnsFormat.Usda == Native.TEXERE_YARNS_FORMAT_USDA, "YarnsFormat");
         using (var design = Design.Read("plain.toml", Encoding.UTF8.GetBytes(Plain)))
         using (var cloth = Cloth.Placed(design))

@@ -211,7 +211,12 @@ unsafe extern "C" fn store(user: *mut c_void, offset: u64, data: *const u8, size
 #[test]
 fn a_file_for_a_callback_has_the_bytes_of_the_file() {
     everywhere(|name, backend, yarns, settings, plan| {
-        for (number, format) in [(TEXERE_FORMAT_GLB, Format::Glb), (TEXERE_FORMAT_PLY, Format::Ply)] {
+        for (number, format) in [
+            (TEXERE_FORMAT_GLB, Format::Glb),
+            (TEXERE_FORMAT_PLY, Format::Ply),
+            (TEXERE_FORMAT_STL, Format::Stl),
+            (TEXERE_FORMAT_OBJ, Format::Obj),
+        ] {
             let mut own = std::io::Cursor::new(Vec::new());
             texere::write::stream_to(Pipeline::new(yarns).settings(*settings), backend, format, &mut own)
                 .unwrap();

@@ -41,7 +41,8 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Say which faults a cloth has, where, and what would cure them
     Check(CheckArgs),
-    /// Write a design's mesh to a .glb or .ply file, or its cloth at rest to a .yarns file
+    /// Write a design's mesh to a .glb, .ply, .stl or .obj file, or its cloth at rest to a .yarns
+    /// file
     Mesh(MeshArgs),
     /// Draw or print a design's draft, stitch chart or lappings
     Draft(DraftArgs),
@@ -105,8 +106,9 @@ pub(crate) struct MeshArgs {
     /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
     /// cloth
     pub(crate) design: PathBuf,
-    /// The file to write: .glb or .ply for a mesh; .bcc or .usda for the yarns' centrelines, as
-    /// curves for other programs; .yarns saves the cloth at rest, which need not settle again
+    /// The file to write: .glb, .ply, .stl or .obj for a mesh; .bcc or .usda for the yarns'
+    /// centrelines, as curves for other programs; .yarns saves the cloth at rest, which need not
+    /// settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl,

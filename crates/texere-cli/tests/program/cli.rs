@@ -145,7 +145,7 @@ fn exit_codes_say_whose_fault_it_is() {
         (vec!["inspect", &plain, "--section", "blob"], 2, "expected circle"),
         (vec!["inspect", &plain, "--section", "ellipse:900"], 2, "aspect is 900"),
         (vec!["mesh", &plain, "-o", nowhere], 1, "x.glb"),
-        (vec!["mesh", &plain, "-o", "mesh.obj"], 2, "glb, ply"),
+        (vec!["mesh", &plain, "-o", "mesh.fbx"], 2, "glb, ply"),
         (vec!["mesh", &plain, "-o", nowhere, "--device", "abacus"], 2, "\"abacus\"; there are: "),
         (vec!["weave", &plain], 2, "unrecognized subcommand"),
     ] {

@@ -53,7 +53,7 @@ fn no_command_replaces_what_the_design_was_read_from() {
 fn endings_are_looked_at_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     for (args, said) in [
-        (["mesh", "no-such.toml", "-o", "cloth.obj"], "glb, ply"),
+        (["mesh", "no-such.toml", "-o", "cloth.fbx"], "glb, ply"),
         (["draft", "no-such.toml", "-o", "cloth.jpg"], "cloth.jpg does not end in .png"),
         (["render", "no-such.toml", "-o", "cloth.glb"], "cloth.glb does not end in .png"),
     ] {

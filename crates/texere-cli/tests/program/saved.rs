@@ -106,9 +106,9 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &broken, "-o", &ply], 3, "byte 16: the length in bytes is"),
         (&["mesh", &path("none.yarns"), "-o", &ply], 1, "can't read"),
         (
-            &["mesh", &design, "-o", &path("cloth.obj")],
+            &["mesh", &design, "-o", &path("cloth.fbx")],
             2,
-            "there are: glb, ply; and without a mesh: bcc, usda, yarns",
+            "there are: glb, ply, stl, obj; and without a mesh: bcc, usda, yarns",
         ),
     ];
     for (args, code, said) in cases {

@@ -67,14 +67,28 @@ pub enum WriteError {
         /// The most bytes that the format can have.
         limit: u64,
     },
-    /// PLY numbers vertices with 32 bits. Fewer sides or subdivisions make fewer vertices.
+    /// PLY numbers vertices with 32 bits, and so do programs that read OBJ. Fewer sides or
+    /// subdivisions make fewer vertices.
     #[error(
-        "PLY of {vertices} vertices or more, but the format ends at {limit}; use fewer sides or subdivisions"
+        "{format} of {vertices} vertices or more, but the format ends at {limit}; use fewer sides or subdivisions"
     )]
     TooManyVertices {
+        /// The format.
+        format: &'static str,
         /// Vertices that the file would have at least.
         vertices: u64,
         /// The most vertices that the format can have.
+        limit: u64,
+    },
+    /// STL counts facets with 32 bits. PLY counts vertices, of which there are half as many. Fewer
+    /// sides or subdivisions make fewer facets.
+    #[error(
+        "STL of {facets} facets or more, but the format ends at {limit}; write PLY, or fewer sides or subdivisions"
+    )]
+    TooManyFacets {
+        /// Facets that the file would have at least.
+        facets: u64,
+        /// The most facets that the format can have.
         limit: u64,
     },
     /// The mesh has no triangles, such as that of a region without yarns.

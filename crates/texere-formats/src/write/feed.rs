@@ -10,9 +10,13 @@ use texere_core::{Material, Vertex};
 #[cfg(feature = "glb")]
 use super::glb::GlbWriter;
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};
+#[cfg(feature = "obj")]
+use super::obj::{ObjWriter, library_name};
 use super::places::Places;
 #[cfg(feature = "ply")]
 use super::ply::PlyWriter;
+#[cfg(feature = "stl")]
+use super::stl::StlWriter;
 use super::target::Target;
 use super::{Format, WriteError};
 
@@ -29,7 +33,14 @@ fn writer<'a, W: Write + Seek + 'a>(
         Format::Glb => Ok(Box::new(GlbWriter::start(target, plan, chunks, materials)?)),
         #[cfg(feature = "ply")]
         Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials)?)),
-        #[cfg(not(all(feature = "glb", feature = "ply")))]
+        #[cfg(feature = "stl")]
+        Format::Stl => Ok(Box::new(StlWriter::start(target, plan)?)),
+        #[cfg(feature = "obj")]
+        Format::Obj => {
+            let library = library_name(target.path());
+            Ok(Box::new(ObjWriter::start(target, plan, chunks, materials, &library)?))
+        }
+        #[cfg(not(all(feature = "glb", feature = "ply", feature = "stl", feature = "obj")))]
         format => Err(WriteError::Feature { format: format.extension(), feature: format.extension() }),
     }
 }

@@ -9,8 +9,8 @@ use super::WriteError;
 /// ```
 /// use texere_formats::write::Format;
 /// assert_eq!(Format::from_path("damask.GLB")?, Format::Glb);
-/// let error = Format::from_path("damask.obj").unwrap_err();
-/// assert_eq!(error.to_string(), "damask.obj has no known extension; there are: glb, ply");
+/// let error = Format::from_path("damask.fbx").unwrap_err();
+/// assert_eq!(error.to_string(), "damask.fbx has no known extension; there are: glb, ply, stl, obj");
 /// # Ok::<(), texere_formats::WriteError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -20,11 +20,15 @@ pub enum Format {
     Glb,
     /// Binary PLY, up to 2³² - 1 vertices.
     Ply,
+    /// Binary STL, up to 2³² - 1 triangles, without colours.
+    Stl,
+    /// OBJ, text, with a file of materials (`.mtl`) beside it.
+    Obj,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 2] = [Self::Glb, Self::Ply];
+    pub const ALL: [Self; 4] = [Self::Glb, Self::Ply, Self::Stl, Self::Obj];
 
     /// The extension that stands for the format, without its dot.
     #[must_use]
@@ -32,6 +36,8 @@ impl Format {
         match self {
             Self::Glb => "glb",
             Self::Ply => "ply",
+            Self::Stl => "stl",
+            Self::Obj => "obj",
         }
     }
 

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use texere_core::backend::Run;
 use texere_core::{Backend, Material, Mesh, MeshPiece, Pipeline, PipelineError, Topology};
 
+use super::beside::Beside;
 use super::feed::Feed;
 use super::target::Target;
 use super::{Format, Output, WriteError};
@@ -47,7 +48,9 @@ pub struct Written {
 pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     let output = output.into();
     let format = Format::from_path(output.path())?;
-    whole(mesh, format, || Target::create(output))?.commit()?;
+    let beside = Beside::of(format, &output, &mesh.materials)?;
+    let target = whole(mesh, format, || Target::create(output))?;
+    beside.commit(target)?;
     Ok(())
 }
 
@@ -185,8 +188,9 @@ pub fn stream_to(
 pub fn run(run: Run<'_>, materials: &[Material], output: impl Into<Output>) -> Result<Written, WriteError> {
     let output = output.into();
     let format = Format::from_path(output.path())?;
+    let beside = Beside::of(format, &output, materials)?;
     let (target, written) = streamed(run, materials, format, || Target::create(output))?;
-    Ok(Written { bytes: target.commit()?, ..written })
+    Ok(Written { bytes: beside.commit(target)?, ..written })
 }
 
 /// Writes the mesh of a [run](Run) to `out` piece by piece, from the current position on: the bytes

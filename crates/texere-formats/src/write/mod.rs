@@ -5,6 +5,8 @@
 //! |---|---|---|---|
 //! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
+//! | binary STL | `.stl` | `stl` | the triangles alone, each with its corners; millimetres |
+//! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |
 //!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
@@ -37,6 +39,7 @@
 //! Twins for meshes need a writer that seeks, because they go back to fill in values that are known
 //! last.
 
+mod beside;
 mod curves;
 #[cfg(feature = "wif")]
 mod design;
@@ -51,12 +54,16 @@ mod format;
 mod glb;
 mod mesh;
 mod mesh_writer;
+#[cfg(feature = "obj")]
+mod obj;
 mod output;
 #[cfg(feature = "pictures")]
 mod picture;
 mod places;
 #[cfg(feature = "ply")]
 mod ply;
+#[cfg(feature = "stl")]
+mod stl;
 mod target;
 #[cfg(test)]
 mod tests;

@@ -51,6 +51,13 @@ impl Output {
         &self.path
     }
 
+    /// A file beside this one, with another `extension`. It does not replace what this one must
+    /// not.
+    #[cfg(feature = "obj")]
+    pub(super) fn beside(&self, extension: &str) -> Self {
+        Self { path: self.path.with_extension(extension), spared: self.spared.clone() }
+    }
+
     /// Checks whether a file may be written at the path now. The check is meant for a program that
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.

@@ -48,7 +48,8 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
     ) -> Result<Self, WriteError> {
         let (counts, sides) = (plan.counts(), plan.settings().sides);
         if counts.vertices > VERTICES_MAX {
-            return Err(WriteError::TooManyVertices { vertices: counts.vertices, limit: VERTICES_MAX });
+            let (format, vertices) = ("PLY", counts.vertices);
+            return Err(WriteError::TooManyVertices { format, vertices, limit: VERTICES_MAX });
         }
         let header = header(counts.vertices, counts.triangles);
         target.write(header.as_bytes())?;

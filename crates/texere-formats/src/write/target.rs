@@ -1,6 +1,8 @@
 //! A buffered file that is being written.
 
 use std::io::{self, Seek, SeekFrom, Write};
+#[cfg(feature = "obj")]
+use std::path::Path;
 use std::path::PathBuf;
 
 use super::unfinished::Unfinished;
@@ -39,6 +41,12 @@ impl<W: Write> Target<W> {
     /// A target that is written from its first byte to its last, to the caller's `out`.
     pub(super) fn straight(out: W) -> Self {
         Self::over(out, 0, None)
+    }
+
+    /// The path that was asked for. None if the writer is the caller's.
+    #[cfg(feature = "obj")]
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
     }
 
     /// The error for a write that failed.

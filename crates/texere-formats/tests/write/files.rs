@@ -158,8 +158,15 @@ fn a_mesh_too_large_for_its_format_is_refused_at_once() {
         |path| stream(Pipeline::new(&yarns).settings(settings), path).unwrap_err(),
         |error| match *error {
             WriteError::GlbTooLarge { bytes: told, limit } => (told, limit) == (bytes, 4_294_967_295),
-            WriteError::TooManyVertices { vertices: told, limit } => {
+            WriteError::TooManyVertices { format: "PLY", vertices: told, limit } => {
                 (told, limit) == (vertices, 4_294_967_295)
+            }
+            // Each ring has one texture coordinate more than it has vertices.
+            WriteError::TooManyVertices { format: "OBJ", vertices: told, limit } => {
+                (told, limit) == (vertices / 64 * 65, 2_147_483_647)
+            }
+            WriteError::TooManyFacets { facets, limit } => {
+                (facets, limit) == (99_999 * 1_000 * 128, 4_294_967_295)
             }
             _ => false,
         },

@@ -4,11 +4,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use gltf::Gltf;
-use texere_core::{ControlPoint, Limits, Pipeline, Topology, Yarn, Yarns};
+use texere_core::{ControlPoint, Limits, Mesh, Pipeline, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 use texere_formats::write::{self, Format};
 
-use crate::fabric::{fabric, long_yarn, pipeline, region, ways, whole};
+use crate::fabric::{fabric, long_yarn, pipeline, region, triangles, ways, whole};
+use crate::{obj, stl};
 
 /// Union-find: sets are joined when two of their members are.
 struct Pieces {
@@ -79,6 +80,38 @@ fn of_glb(bytes: &[u8]) -> usize {
     pieces.sum()
 }
 
+/// Number of pieces in an STL file. It numbers no vertices: corners at one place are one vertex.
+fn of_stl(bytes: &[u8]) -> usize {
+    let facets = stl::facets(bytes).into_iter();
+    of_places(facets.map(|facet| facet.corners.map(|corner| corner.map(f32::to_bits))).collect())
+}
+
+/// Number of pieces of triangles that are given by the places of their corners.
+fn of_places(triangles: Vec<[[u32; 3]; 3]>) -> usize {
+    let mut numbers = BTreeMap::new();
+    let mut number = |corner: [u32; 3]| {
+        let next = numbers.len();
+        *numbers.entry(corner).or_insert(next)
+    };
+    let corners: Vec<_> = triangles.into_iter().map(|triangle| triangle.map(&mut number)).collect();
+    Pieces::of(numbers.len(), corners).count()
+}
+
+/// Number of pieces of a mesh whose corners at one place are one vertex. Two ends of the fabric
+/// begin at one place.
+fn by_place(mesh: &Mesh) -> usize {
+    let triangles = triangles(mesh).into_values().flatten();
+    let corners = triangles.map(|triangle| triangle.map(|[x, y, z, ..]| [x, y, z]));
+    of_places(corners.collect())
+}
+
+/// Number of pieces in an OBJ file.
+fn of_obj(bytes: &[u8]) -> usize {
+    let file = obj::File::of(std::str::from_utf8(bytes).unwrap());
+    let corners = file.faces.iter().map(|face| face.corners.map(|[vertex, ..]| vertex));
+    Pieces::of(file.positions.len(), corners).count()
+}
+
 /// Calls `check` with the files of `mesh` and of `stream` in each format.
 fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
     let folder = tempfile::tempdir().unwrap();
@@ -95,6 +128,8 @@ fn pieces(format: Format, bytes: &[u8]) -> usize {
     match format {
         Format::Glb => of_glb(bytes),
         Format::Ply => of_ply(bytes),
+        Format::Stl => of_stl(bytes),
+        Format::Obj => of_obj(bytes),
         other => panic!("{other:?}"),
     }
 }
@@ -115,6 +150,8 @@ fn a_yarn_is_one_piece_however_it_is_cut() {
             each_file(
                 || pipeline(yarns, caps, way),
                 |format, bytes| {
+                    let expected =
+                        if format == Format::Stl { by_place(&whole(yarns, caps)) } else { expected };
                     assert_eq!(pieces(format, &bytes), expected, "{format:?}, caps {caps}, {way:?}")
                 },
             );
@@ -155,7 +192,13 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     let runs = uncut.chunks[0].parts().iter().filter(|part| part.rings > 1).count();
     assert!(runs > 1);
     for (_, limits) in ways() {
-        each_file(|| part(limits), |format, bytes| assert_eq!(pieces(format, &bytes), runs, "{format:?}"));
+        each_file(
+            || part(limits),
+            |format, bytes| {
+                let runs = if format == Format::Stl { by_place(&uncut) } else { runs };
+                assert_eq!(pieces(format, &bytes), runs, "{format:?}");
+            },
+        );
     }
 }
 

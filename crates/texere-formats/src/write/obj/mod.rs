@@ -1,0 +1,298 @@
+//! OBJ: vertices with normals and texture coordinates, and triangles, as text. A file of materials
+//! (MTL) lies beside it.
+//!
+//! Source: Wavefront, "Advanced Visualizer Manual", appendix B1, 1995.
+
+mod materials;
+
+use std::borrow::Borrow;
+use std::f64::consts::TAU;
+use std::io::{Seek, Write};
+
+use glam::DVec3;
+use texere_core::Material;
+use texere_core::backend::{Chunk, Plan};
+use texere_core::definitions::index_pattern;
+
+use super::WriteError;
+use super::mesh_writer::{MeshWriter, Run};
+use super::places::Places;
+use super::target::Target;
+
+use materials::material_name;
+pub(super) use materials::{LIBRARY, library, library_name};
+
+/// Bytes of a line of three numbers, and of one of two: a keyword of two letters, and for each
+/// number a space and the fifteen bytes that any float takes (a sign, nine digits, a point, an
+/// exponent of four bytes).
+const THREE_BYTES: u64 = 51;
+const TWO_BYTES: u64 = 35;
+
+/// The most vertices and the most texture coordinates. The format has no limit, but readers number
+/// them with 32 bits and a sign.
+const NUMBERS_MAX: u64 = i32::MAX as u64;
+
+/// An OBJ file that is being written.
+///
+/// OBJ numbers vertices by their order, and the mesh comes chunk by chunk. All lines of a kind have
+/// one length, so that each has its place whatever comes first, and the file grows in several
+/// places. The file has positions, normals and texture coordinates of rings before those of caps,
+/// and the triangles of tubes before those of caps.
+///
+/// The first texture coordinate is the share of a turn round the yarn, the second one the distance
+/// along it, mm. A ring has one more of them than it has sides, because it begins at 0 and ends at
+/// 1. Caps show the circle that touches the texture's edges.
+#[derive(Debug)]
+pub(super) struct ObjWriter<'a, W: Write + Seek> {
+    target: Target<W>,
+    plan: &'a Plan,
+    materials: &'a [Material],
+    quads: Vec<u32>,
+    /// Bytes of a number of a vertex.
+    digits: usize,
+    /// Texture coordinates of all rings.
+    ring_coordinates: u64,
+    positions_at: u64,
+    normals_at: u64,
+    coordinates_at: u64,
+    next_tube_face_at: u64,
+    next_cap_face_at: u64,
+    /// The yarns of the last face of a tube, and of the last one of a cap.
+    named: [Option<u32>; 2],
+    along: Along,
+}
+
+/// The distance along a yarn, ring by ring.
+#[derive(Debug, Default)]
+struct Along {
+    sum: DVec3,
+    count: u32,
+    before: Option<DVec3>,
+    mm: f64,
+    goes_on: bool,
+}
+
+impl<'a, W: Write + Seek> ObjWriter<'a, W> {
+    /// Starts a file. `library` is the name of the file of materials.
+    pub(super) fn start(
+        mut target: Target<W>,
+        plan: &'a Plan,
+        chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+        materials: &'a [Material],
+        library: &str,
+    ) -> Result<Self, WriteError> {
+        let (counts, sides) = (plan.counts(), u64::from(plan.settings().sides));
+        let caps = counts.vertices / sides - counts.rings;
+        let ring_coordinates = counts.rings * (sides + 1);
+        let coordinates = ring_coordinates + caps * sides;
+        if coordinates.max(counts.vertices) > NUMBERS_MAX {
+            let (format, vertices) = ("OBJ", coordinates.max(counts.vertices));
+            return Err(WriteError::TooManyVertices { format, vertices, limit: NUMBERS_MAX });
+        }
+        let digits = coordinates.max(counts.vertices).to_string().len();
+        let header = format!(
+            "# texere {}\n# unit mm; x along the weft or course, y along the warp or wale, z out of the face\n\
+             mtllib {library}\n",
+            env!("CARGO_PKG_VERSION")
+        );
+        target.write(header.as_bytes())?;
+        let positions_at = header.len() as u64;
+        let normals_at = positions_at + counts.vertices * THREE_BYTES;
+        let coordinates_at = normals_at + counts.vertices * THREE_BYTES;
+        let faces_at = coordinates_at + coordinates * TWO_BYTES;
+        let mut writer = Self {
+            target,
+            plan,
+            materials,
+            quads: index_pattern(sides as u32),
+            digits,
+            ring_coordinates,
+            positions_at,
+            normals_at,
+            coordinates_at,
+            next_tube_face_at: faces_at,
+            next_cap_face_at: faces_at,
+            named: [None; 2],
+            along: Along::default(),
+        };
+        let tube_faces = counts.triangles - caps * (sides - 2);
+        writer.next_cap_face_at += tube_faces * writer.face_bytes() + writer.names_bytes(chunks);
+        Ok(writer)
+    }
+
+    /// Bytes of the line of a triangle.
+    fn face_bytes(&self) -> u64 {
+        // `f`, and for each corner a space, three numbers and two slashes, and the line's end.
+        2 + 3 * (3 + 3 * self.digits as u64)
+    }
+
+    /// Bytes of the lines that name the yarns of tubes.
+    fn names_bytes(&self, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> u64 {
+        let (mut named, mut bytes) = (None, 0);
+        for chunk in chunks {
+            for part in chunk.borrow().parts().iter().filter(|part| part.rings > 1) {
+                if named.replace(part.yarn) != Some(part.yarn) {
+                    bytes += self.name(part.yarn).len() as u64;
+                }
+            }
+        }
+        bytes
+    }
+
+    /// The lines that name a yarn and its material.
+    fn name(&self, yarn: u32) -> String {
+        let own = self.plan.yarn(yarn as usize);
+        let origin = own.origin.to_string().replace(", ", "_").replace(' ', "_");
+        let material = material_name(own.material, self.materials);
+        format!("g {origin}_{yarn}\nusemtl {material}\n")
+    }
+
+    /// Writes the name of a yarn, unless the last face of this kind was of it.
+    fn named(&mut self, kind: usize, yarn: u32) -> Result<(), WriteError> {
+        if self.named[kind].replace(yarn) == Some(yarn) {
+            return Ok(());
+        }
+        let name = self.name(yarn);
+        self.target.write(name.as_bytes())
+    }
+
+    /// Writes a triangle: for each corner the number of its vertex, and of its texture coordinates,
+    /// counted from 0.
+    fn face(&mut self, corners: [[u64; 2]; 3]) -> Result<(), WriteError> {
+        let [one, two, three] = corners.map(|[vertex, at]| format!("{0}/{1}/{0}", vertex + 1, at + 1));
+        // Spaces at the end fill up the line.
+        let width = self.face_bytes() as usize - 1;
+        let line = format!("{:width$}\n", format!("f {one} {two} {three}"));
+        self.target.write(line.as_bytes())
+    }
+
+    /// Writes the texture coordinates of a ring whose last vertex has come.
+    fn ring_coordinates(&mut self, ring: u64, begins: bool) -> Result<(), WriteError> {
+        let sides = self.plan.settings().sides;
+        let mm = self.along.next(f64::from(sides), begins);
+        self.target.go_to(self.coordinates_at + ring * (u64::from(sides) + 1) * TWO_BYTES)?;
+        for side in 0..=sides {
+            let turn = side as f32 / sides as f32;
+            self.target.write(two(turn, mm as f32).as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Writes the texture coordinates of a cap.
+    fn cap_coordinates(&mut self, cap: u64) -> Result<(), WriteError> {
+        let sides = self.plan.settings().sides;
+        let first = self.ring_coordinates + cap * u64::from(sides);
+        self.target.go_to(self.coordinates_at + first * TWO_BYTES)?;
+        for side in 0..sides {
+            let (sine, cosine) = (TAU * f64::from(side) / f64::from(sides)).sin_cos();
+            let line = two((0.5 + 0.5 * cosine) as f32, (0.5 + 0.5 * sine) as f32);
+            self.target.write(line.as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+impl Along {
+    fn add(&mut self, position: [f32; 3]) {
+        self.sum += DVec3::from(position.map(f64::from));
+        self.count += 1;
+    }
+
+    /// The distance of the ring whose vertices have been added. `begins` is whether the ring is the
+    /// first of its run of rings.
+    fn next(&mut self, sides: f64, begins: bool) -> f64 {
+        let middle = self.sum / sides;
+        let way = self.before.filter(|_| !begins).map(|before| before.distance(middle));
+        self.mm = way.map_or(0.0, |way| self.mm + way);
+        (self.before, self.sum, self.count) = (Some(middle), DVec3::ZERO, 0);
+        self.mm
+    }
+}
+
+impl<W: Write + Seek> MeshWriter<W> for ObjWriter<'_, W> {
+    fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
+        for (at, keyword) in [(self.positions_at, "v "), (self.normals_at, "vn")] {
+            self.target.go_to(at + run.place * THREE_BYTES)?;
+            for vertex in run.vertices {
+                let [x, y, z] = if keyword == "vn" { vertex.normal } else { vertex.position };
+                let line = format!("{keyword} {x:15e} {y:15e} {z:15e}\n");
+                self.target.write(line.as_bytes())?;
+            }
+        }
+        let sides = self.plan.settings().sides;
+        let all_rings = self.plan.counts().rings;
+        for ((number, place), vertex) in (run.first..).zip(run.place..).zip(run.vertices) {
+            self.along.add(vertex.position);
+            if self.along.count < sides {
+                continue;
+            }
+            let (ring, place) = (number / sides, place / u64::from(sides));
+            if ring < run.chunk.rings() {
+                let first = ring * sides;
+                let parts = run.chunk.parts();
+                let begins = parts.binary_search_by_key(&first, |part| part.first_vertex).is_ok();
+                self.ring_coordinates(place, begins && !(ring == 0 && self.along.goes_on))?;
+            } else {
+                (self.along.sum, self.along.count) = (DVec3::ZERO, 0);
+                self.cap_coordinates(place - all_rings)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError> {
+        self.along.goes_on = chunk.repeats_ring();
+        let sides = u64::from(self.plan.settings().sides);
+        let quads = std::mem::take(&mut self.quads);
+        self.target.go_to(self.next_tube_face_at)?;
+        for part in chunk.parts().iter().filter(|part| part.rings > 1) {
+            self.named(0, part.yarn)?;
+            let first = places.of(chunk, part.first_vertex);
+            for gap in 0..u64::from(part.rings) - 1 {
+                let base = first + gap * sides;
+                for corners in quads.chunks_exact(3) {
+                    self.face(tube_corners(base, [corners[0], corners[1], corners[2]], sides))?;
+                }
+            }
+        }
+        self.quads = quads;
+        self.next_tube_face_at = self.target.position();
+        self.target.go_to(self.next_cap_face_at)?;
+        for cap in chunk.caps() {
+            self.named(1, cap.yarn)?;
+            let section = self.plan.yarn(cap.yarn as usize).section as usize;
+            let base = places.of(chunk, cap.first_vertex);
+            let all_rings = self.plan.counts().rings;
+            let of_caps = self.ring_coordinates + base - all_rings * sides;
+            let corners: Vec<_> = self.plan.cap_indices(section, cap.end).map(u64::from).collect();
+            for corners in corners.chunks_exact(3) {
+                self.face([0, 1, 2].map(|corner| [base + corners[corner], of_caps + corners[corner]]))?;
+            }
+        }
+        self.next_cap_face_at = self.target.position();
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<Target<W>, WriteError> {
+        Ok(self.target)
+    }
+}
+
+/// Vertices and texture coordinates of a triangle between two rings, the first of which begins with
+/// vertex `base`. The triangles between the last side and the first one take the texture's far
+/// edge.
+fn tube_corners(base: u64, corners: [u32; 3], sides: u64) -> [[u64; 2]; 3] {
+    let side = |corner: u32| u64::from(corner) % sides;
+    let closes = corners.iter().any(|&corner| side(corner) == sides - 1)
+        && corners.iter().any(|&corner| side(corner) == 0);
+    corners.map(|corner| {
+        let ring = base / sides + u64::from(corner) / sides;
+        let at = if closes && side(corner) == 0 { sides } else { side(corner) };
+        [base + u64::from(corner), ring * (sides + 1) + at]
+    })
+}
+
+/// A line of texture coordinates.
+fn two(turn: f32, along: f32) -> String {
+    format!("vt {turn:15e} {along:15e}\n")
+}

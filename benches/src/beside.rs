@@ -1,5 +1,6 @@
 //! Makes meshes of saved yarns when it is told to, and prints the time. A program in another
-//! language runs it beside its own calls, by turns: `crates/texere-python/benches/overhead.py` does.
+//! language runs it beside its own calls, by turns, as
+//! `crates/texere-python/benches/overhead.py` does.
 //!
 //! `cargo run --release -p texere-bench --bin beside -- FILE.yarns`
 //!

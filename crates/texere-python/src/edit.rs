@@ -196,7 +196,8 @@ impl Editing {
 
     /// The vertices that edits have changed since the last call, yarn by yarn, for a viewer that
     /// replaces only them. The device makes only them again. They equal those of :meth:`mesh`
-    /// without arguments, to the bit. Colours don't count. The call copies vertices from the device.
+    /// without arguments, to the bit. Colours don't count. The call copies vertices from the
+    /// device.
     ///
     /// None says that everything counts as changed: take :meth:`mesh`. It comes at the first call,
     /// and after a yarn has outgrown the room that is kept for it.

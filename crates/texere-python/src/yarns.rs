@@ -75,8 +75,8 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
 /// >>> texere.read_curves(file, diameter_mm=0.2).points.tolist()
 /// [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 ///
-/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for coordinates or
-/// a diameter out of range.
+/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for coordinates
+/// or a diameter out of range.
 #[pyfunction]
 #[pyo3(signature = (path, *, diameter_mm, unit_mm=1.0))]
 pub(crate) fn read_curves(py: Python<'_>, path: PathBuf, diameter_mm: f32, unit_mm: f32) -> PyResult<Yarns> {

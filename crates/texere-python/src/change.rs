@@ -21,7 +21,7 @@ use crate::watch::Run;
 /// True
 /// >>> live.set_lift(30, 23, True)
 /// >>> live.changes()
-/// [<texere.Change of yarn 30, 2616 vertices>, <texere.Change of yarn 87, 3480 vertices>]
+/// [<texere.Change of yarn 30, 2214 vertices>, <texere.Change of yarn 87, 2982 vertices>]
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Change {

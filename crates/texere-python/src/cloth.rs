@@ -9,7 +9,7 @@ use texere::Picker;
 use texere::backend::Plan;
 use texere::picture::{Background, Quality};
 use texere::rest::RestReport;
-use texere::write::{CurveFormat, Output};
+use texere::write::Output;
 use texere::yarn::YarnPlace;
 
 use crate::check::{Clearance, Diagnosis};
@@ -20,7 +20,7 @@ use crate::mesh::{Mesh, settings};
 use crate::pick::Hit;
 use crate::picture::{Asked, Kept, View};
 use crate::yarns::{Shared, Yarns};
-use crate::{device, mesh, peers, pick, picture, watch};
+use crate::{device, mesh, peers, pick, picture, watch, yarns};
 
 /// The cloth of a design: :meth:`texere.Design.rest` makes it.
 ///
@@ -153,12 +153,13 @@ impl Cloth {
     }
 
     /// Writes the cloth by the ending of the path: ``.glb``, ``.ply``, ``.stl`` and ``.obj``, its
-    /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.bcc`` and ``.usda``, its
-    /// centrelines as curves; ``.yarns``, its yarns to the bit. The file appears whole or not at
-    /// all, and replaces no file of the design.
+    /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.yarns``, its yarns to
+    /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
+    /// at all, and replaces no file of the design.
     ///
-    /// >>> import tempfile, pathlib >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb" >>>
-    /// texere.read("designs/plain.toml").placed().write(file, device="cpu")
+    /// >>> import tempfile, pathlib
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
+    /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
     /// be written.
@@ -166,11 +167,8 @@ impl Cloth {
     fn write(&self, py: Python<'_>, path: PathBuf, device: &str) -> PyResult<()> {
         let yarns = self.cloth.yarns();
         let output = Output::to(&path).sparing(self.cloth.design().files());
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns")) {
-            return watch::quietly(py, |_| texere::write::yarns(yarns, output).map(|_| ()));
-        }
-        if CurveFormat::from_path(&path).is_ok() {
-            return watch::quietly(py, |_| texere::write::curves(yarns, output).map(|_| ()));
+        if !yarns::is_mesh(&path)? {
+            return watch::quietly(py, |_| yarns::write(yarns, output));
         }
         let device = watch::quietly(py, |_| device::open(device))?;
         let pipeline = || mesh::pipeline(yarns, settings(yarns, None, None, false));
@@ -202,6 +200,11 @@ impl Cloth {
     /// - ``tangent``: the direction of the fibres along the surface, which turn with the twist.
     /// - ``uv``: float32 of (height, width, 2): the angle round the yarn, radians, and the distance
     ///   along it in rings of the picture's own mesh, modulo 8192, in eighths.
+    /// - ``crossing``: int32 of (height, width, 2), counted from 0. In woven cloth the end and the
+    ///   pick that cross nearest along the yarn that the pixel shows; in a knit the wale and the
+    ///   course of the stitch that the yarn makes there. It is the place that :meth:`pick` names,
+    ///   where names count from 1. Both are -1 where there is no yarn, at a yarn's end beyond the
+    ///   last crossing, in a turn of the weft, and where a yarn of a knit floats.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> shown = cloth.picture(size=(80, 60), layers=["yarn", "depth"])
@@ -232,8 +235,7 @@ impl Cloth {
         let background = background.map_or(Ok(Background::Ground), picture::background)?;
         let view = View::new(view, turn, at.zip(width_mm), eye, field_of_view)?;
         let asked = Asked { size: size.into(), view, background, quality };
-        let yarns = Shared::Cloth(self.cloth.clone());
-        picture::picture(py, &yarns, &self.scene, &asked, device, layers)
+        picture::picture(py, &self.cloth, &self.scene, &asked, device, layers)
     }
 
     /// Shows the mesh of the cloth in a window of pyvista, or in a notebook:
@@ -258,8 +260,7 @@ impl Cloth {
         }
         let quality = Quality { supersampling: 2, hairs: true };
         let asked = Asked { size: SHOWN, view: View::Face, background: Background::Ground, quality };
-        let yarns = Shared::Cloth(self.cloth.clone());
-        let png = picture::png(py, &yarns, &self.scene, &asked)?;
+        let png = picture::png(py, self.cloth.yarns(), &self.scene, &asked)?;
         Ok(Some(PyBytes::new(py, &png)))
     }
 

@@ -4,12 +4,14 @@ use std::sync::{Arc, Mutex, TryLockError};
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use texere::mesh::LiveError;
+use texere::mesh::{LiveError, Topology};
 use texere::yarn::YarnPlace;
-use texere::{ControlPoint, Live, Structure};
+use texere::{ControlPoint, Live, Settings, Structure};
 
+use crate::change::{Change, changes};
 use crate::mesh::{Mesh, settings};
 use crate::pick::{Hit, ray};
+use crate::watch::Run;
 use crate::woven;
 use crate::yarn::srgb;
 use crate::yarns::{Yarns, points_of};
@@ -31,7 +33,8 @@ use crate::{device, watch};
 #[pyclass(frozen, module = "texere", name = "Live")]
 #[derive(Debug)]
 pub(crate) struct Editing {
-    live: Mutex<Live>,
+    /// The cloth, and whether all its changes up to an update have been told.
+    live: Mutex<(Live, bool)>,
     /// The cloth before all edits.
     cloth: Arc<texere::Cloth>,
     device: String,
@@ -42,7 +45,9 @@ impl Editing {
         let opened = watch::quietly(py, |_| device::open(device))?;
         let live = watch::quietly(py, |_| {
             let (structure, yarns) = (&cloth.design().structure, cloth.yarns());
-            let settings = settings(yarns, None, None, false);
+            let usual = settings(yarns, None, None, false);
+            // The indices of its mesh never leave the device.
+            let settings = Settings { topology: Topology::Shared, ..usual };
             if !matches!(structure, Structure::Woven(_)) {
                 return Live::given(opened, yarns.clone(), settings);
             }
@@ -50,7 +55,7 @@ impl Editing {
             live.set_rest(yarns)?;
             Ok(live)
         })?;
-        Ok(Self { live: Mutex::new(live), cloth: cloth.clone(), device: device.into() })
+        Ok(Self { live: Mutex::new((live, false)), cloth: cloth.clone(), device: device.into() })
     }
 
     /// Does `work` with the cloth, which no other thread may use meanwhile.
@@ -61,6 +66,15 @@ impl Editing {
         py: Python<'_>,
         work: impl FnOnce(&mut Live) -> Result<T, LiveError> + Send,
     ) -> PyResult<T> {
+        self.watched(py, |live, _, _| work(live))
+    }
+
+    /// [`Self::alone`], where `work` also gets whether all changes are known, and its run.
+    fn watched<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut Live, &mut bool, &Run) -> Result<T, LiveError> + Send,
+    ) -> PyResult<T> {
         let mut live = match self.live.try_lock() {
             Ok(live) => live,
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
@@ -68,8 +82,8 @@ impl Editing {
                 return Err(PyRuntimeError::new_err("another thread uses this cloth"));
             }
         };
-        let live = &mut *live;
-        watch::quietly(py, move |_| work(live))
+        let (live, is_known) = &mut *live;
+        watch::quietly(py, move |run| work(live, is_known, run))
     }
 }
 
@@ -180,7 +194,33 @@ impl Editing {
         Ok(Yarns::own(self.alone(py, |live| live.yarns())?))
     }
 
-    /// The mesh of the yarns as they are now, made anew: see :meth:`texere.Cloth.mesh`. Copies the
+    /// The vertices that edits have changed since the last call, yarn by yarn, for a viewer that
+    /// replaces only them. The device makes only them again. They equal those of :meth:`mesh`
+    /// without arguments, to the bit. Colours don't count. The call copies vertices from the
+    /// device.
+    ///
+    /// None says that everything counts as changed: take :meth:`mesh`. It comes at the first call,
+    /// and after a yarn has outgrown the room that is kept for it.
+    ///
+    /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
+    /// >>> mesh = live.mesh()
+    /// >>> yarns = [mesh.positions[mesh.yarn_ids == yarn] for yarn in range(112)]
+    /// >>> live.changes() is None
+    /// True
+    /// >>> live.set_lift(30, 23, True)
+    /// >>> for change in live.changes() or []:
+    /// ...     yarns[change.yarn] = np.resize(yarns[change.yarn], (change.count, 3))
+    /// ...     yarns[change.yarn][change.vertices] = change.positions
+    /// >>> bool((np.concatenate(yarns) == live.mesh().positions).all())
+    /// True
+    ///
+    /// Raises :class:`texere.Error` for a device that fails.
+    fn changes(&self, py: Python<'_>) -> PyResult<Option<Vec<Change>>> {
+        self.watched(py, changes)
+    }
+
+    /// The mesh of the yarns as they are now, made anew: see :meth:`texere.Cloth.mesh`. Without
+    /// ``sides`` and ``subdivisions`` they are those of the cloth before all edits. Copies the
     /// yarns.
     ///
     /// >>> texere.read("designs/plain.toml").placed().edit(device="cpu").mesh(sides=8)
@@ -193,8 +233,10 @@ impl Editing {
         subdivisions: Option<u32>,
         caps: bool,
     ) -> PyResult<Mesh> {
-        let yarns = self.yarns(py)?.yarns;
-        Mesh::make(py, &yarns, settings(&yarns, sides, subdivisions, caps), &self.device)
+        let (yarns, own) = self.alone(py, |live| Ok((live.yarns()?, *live.mesh().plan().settings())))?;
+        let yarns = Yarns::own(yarns).yarns;
+        let (sides, subdivisions) = (sides.unwrap_or(own.sides), subdivisions.unwrap_or(own.subdivisions));
+        Mesh::make(py, &yarns, settings(&yarns, Some(sides), Some(subdivisions), caps), &self.device)
     }
 
     fn __repr__(&self) -> String {

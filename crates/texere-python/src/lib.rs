@@ -15,8 +15,10 @@
 //!   wrong type or shape are Python's own `TypeError` and `ValueError`.
 
 mod arrays;
+mod change;
 mod check;
 mod cloth;
+mod crossing;
 mod design;
 mod device;
 mod edit;
@@ -40,6 +42,8 @@ use pyo3::prelude::*;
 mod _texere {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::change::Change;
     #[pymodule_export]
     use crate::check::{Clearance, Contact, Diagnosis};
     #[pymodule_export]

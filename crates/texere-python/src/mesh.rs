@@ -196,8 +196,9 @@ impl Mesh {
     /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
     /// not at all. It is made again while it is written, piece by piece.
     ///
-    /// >>> import tempfile, pathlib >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply" >>>
-    /// texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
+    /// >>> import tempfile, pathlib
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
+    /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

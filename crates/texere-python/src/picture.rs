@@ -12,12 +12,12 @@ use texere::picture::{
     Background, Camera, Cut, Layers, Picture, Pose, Quality, RenderError, Renderer, Scene, picture_sides,
 };
 use texere::yarn::Origin;
-use texere::{BackendError, Settings};
+use texere::{BackendError, PipelineError, Settings};
 
+use crate::crossing::crossings;
 use crate::error::Raise;
 use crate::watch;
 use crate::yarn::srgb;
-use crate::yarns::Shared;
 
 /// Where the eye is, and what it sees.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub(crate) struct Asked {
 }
 
 /// The layers that can be asked for beside the picture itself.
-const LAYERS: [&str; 6] = ["depth", "normal", "tangent", "yarn", "uv", "position"];
+const LAYERS: [&str; 7] = ["depth", "normal", "tangent", "yarn", "uv", "position", "crossing"];
 
 /// The most pixels of a picture. Devices have limits of their own for each side.
 const PIXELS_MOST: u64 = 1 << 28;
@@ -137,17 +137,17 @@ pub(crate) fn has_device(py: Python<'_>) -> bool {
 }
 
 /// Makes a picture of `yarns` as a PNG file.
-pub(crate) fn png(py: Python<'_>, yarns: &Shared, kept: &Kept, asked: &Asked) -> PyResult<Vec<u8>> {
+pub(crate) fn png(py: Python<'_>, yarns: &texere::Yarns, kept: &Kept, asked: &Asked) -> PyResult<Vec<u8>> {
     let (made, _) = drawn(py, yarns, kept, asked, "auto", false)?;
     let mut png = Cursor::new(Vec::new());
     texere::write::picture_to(made.size, &made.rgb, &mut png).raise(py)?;
     Ok(png.into_inner())
 }
 
-/// Makes a picture of `yarns`, and a dict of its layers if `layers` asks for any.
+/// Makes a picture of a cloth, and a dict of its layers if `layers` asks for any.
 pub(crate) fn picture<'py>(
     py: Python<'py>,
-    yarns: &Shared,
+    cloth: &texere::Cloth,
     kept: &Kept,
     asked: &Asked,
     device: &str,
@@ -157,11 +157,20 @@ pub(crate) fn picture<'py>(
         let known = LAYERS.join(", ");
         return Err(PyValueError::new_err(format!("there is no layer {unknown:?}, only {known}")));
     }
-    let (made, shown) = drawn(py, yarns, kept, asked, device, layers.is_some())?;
+    let (made, shown) = drawn(py, cloth.yarns(), kept, asked, device, layers.is_some())?;
     let color = pixels(py, asked, made)?;
     let Some((layers, shown)) = layers.zip(shown) else { return Ok(color) };
     let all = PyDict::new(py);
     all.set_item("color", color)?;
+    if layers.iter().any(|layer| layer == "crossing") {
+        let subdivisions = settings(cloth.yarns()).subdivisions;
+        let crossings = watch::quietly(py, |run| {
+            crossings(cloth, subdivisions, &shown, run).ok_or(PipelineError::Cancelled)
+        })?;
+        let [width, height] = shown.size.map(|side| side as usize);
+        let flat = crossings.into_flattened().into_pyarray(py);
+        all.set_item("crossing", flat.reshape([height, width, 2])?)?;
+    }
     add(&all, shown, &layers)?;
     Ok(all.into_any())
 }
@@ -170,7 +179,7 @@ pub(crate) fn picture<'py>(
 /// picture.
 fn drawn(
     py: Python<'_>,
-    yarns: &Shared,
+    yarns: &texere::Yarns,
     kept: &Kept,
     asked: &Asked,
     device: &str,

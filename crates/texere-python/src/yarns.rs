@@ -1,7 +1,7 @@
 //! Yarns with their control points, of cloth or of the caller's own arrays.
 
 use std::ops::Deref;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bytemuck::cast_slice;
@@ -9,13 +9,13 @@ use numpy::ndarray::{Array2, ArrayView1, ArrayView2, s};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use texere::ControlPoint;
 use texere::read::CurveScale;
-use texere::write::CurveFormat;
+use texere::write::{CurveFormat, Format, Output};
 use texere::yarn::{Layout, Material, Section};
+use texere::{ControlPoint, WriteError};
 
 use crate::arrays::{given, view};
-use crate::error::Raise;
+use crate::error::{Error, Raise};
 use crate::mesh::{Mesh, settings};
 use crate::watch;
 
@@ -65,23 +65,49 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::yarns(path))?.yarns))
 }
 
-/// Reads the curves of a ``.bcc`` file as round yarns. The file says neither how thick they are nor
-/// how long its unit is: ``diameter`` is that of all yarns, mm, and ``unit`` the length of the
-/// file's unit, mm. A unit of 1 keeps points to the bit.
+/// Reads curves that another program wrote in a BCC file (``.bcc``): round yarns of one diameter.
+/// The file says neither how thick they are nor what its unit is: ``diameter_mm`` and ``unit_mm``,
+/// the length of the unit, do. A unit of 1 mm keeps coordinates to the bit.
 ///
 /// >>> import tempfile, pathlib
 /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.bcc"
 /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).write(file)
-/// >>> texere.read_curves(file, diameter=0.2).points.tolist()
+/// >>> texere.read_curves(file, diameter_mm=0.2).points.tolist()
 /// [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 ///
-/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for a diameter or
-/// coordinates out of range.
+/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for coordinates
+/// or a diameter out of range.
 #[pyfunction]
-#[pyo3(signature = (path, *, diameter, unit=1.0))]
-pub(crate) fn read_curves(py: Python<'_>, path: PathBuf, diameter: f32, unit: f32) -> PyResult<Yarns> {
-    let scale = CurveScale { unit_mm: unit, diameter_mm: diameter };
+#[pyo3(signature = (path, *, diameter_mm, unit_mm=1.0))]
+pub(crate) fn read_curves(py: Python<'_>, path: PathBuf, diameter_mm: f32, unit_mm: f32) -> PyResult<Yarns> {
+    let scale = CurveScale { unit_mm, diameter_mm };
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::curves(path, scale))?))
+}
+
+/// Whether the ending of a path is that of a mesh, and not that of yarns or curves.
+///
+/// **Errors**: [`Error`] for an ending of none of them.
+pub(crate) fn is_mesh(path: &Path) -> PyResult<bool> {
+    match Format::from_path(path) {
+        Ok(_) => Ok(true),
+        Err(_) if is_saved(path) || CurveFormat::from_path(path).is_ok() => Ok(false),
+        Err(error) => {
+            let curves = CurveFormat::ALL.map(CurveFormat::extension).join(", ");
+            Err(Error::new_err(format!("{error}; and without a mesh: {curves}, yarns")))
+        }
+    }
+}
+
+fn is_saved(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
+}
+
+/// Writes yarns, or their centrelines as curves, by the ending of the path.
+pub(crate) fn write(yarns: &texere::Yarns, output: Output) -> Result<(), WriteError> {
+    if is_saved(output.path()) {
+        return texere::write::yarns(yarns, output).map(|_| ());
+    }
+    texere::write::curves(yarns, output).map(|_| ())
 }
 
 impl Yarns {
@@ -234,22 +260,20 @@ impl Yarns {
         Mesh::make(py, &self.yarns, settings(&self.yarns, sides, subdivisions, caps), device)
     }
 
-    /// Saves the yarns by the ending of the path: ``.bcc`` and ``.usda``, their centrelines as
-    /// curves; any other, all of them to the bit, in a file of :func:`texere.read_yarns`. The file
+    /// Writes the yarns by the ending of the path: ``.yarns``, to the bit, for
+    /// :func:`texere.read_yarns`; ``.bcc`` and ``.usda``, their centrelines as curves in mm. A BCC
+    /// file has neither thickness nor colour, and :func:`texere.read_curves` reads it. The file
     /// appears whole or not at all.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.yarns"
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).write(file)
     ///
-    /// Raises :class:`texere.Error` for a file that can't be written.
+    /// Raises :class:`texere.Error` for another ending, for BCC of yarns whose tension is not 0,
+    /// and for a file that can't be written.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let yarns: &texere::Yarns = &self.yarns;
-        let written = |_: &_| match CurveFormat::from_path(&path) {
-            Ok(_) => texere::write::curves(yarns, path),
-            Err(_) => texere::write::yarns(yarns, path),
-        };
-        watch::quietly(py, |run| written(run).map(|_| ()))
+        watch::quietly(py, |_| write(yarns, path.into()))
     }
 
     fn __len__(&self) -> usize {

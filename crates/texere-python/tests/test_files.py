@@ -44,7 +44,7 @@ def test_counts_and_bounds_are_ours(tmp_path, suffix):
 def test_curves_come_back_to_the_bit(tmp_path):
     yarns = cloth().yarns
     yarns.write(tmp_path / "plain.bcc")
-    read = texere.read_curves(tmp_path / "plain.bcc", diameter=0.4)
+    read = texere.read_curves(tmp_path / "plain.bcc", diameter_mm=0.4)
     assert numpy.array_equal(read.points, yarns.points)
     assert numpy.array_equal(read.offsets, yarns.offsets)
     assert numpy.allclose(read.halves, 0.2, atol=1e-4)
@@ -53,9 +53,9 @@ def test_curves_come_back_to_the_bit(tmp_path):
     cloth().write(tmp_path / "cloth.usda")
     assert (tmp_path / "cloth.usda").read_text().startswith("#usda 1.0")
     with pytest.raises(texere.Error):
-        texere.read_curves(tmp_path / "cloth.usda", diameter=0.4)
+        texere.read_curves(tmp_path / "cloth.usda", diameter_mm=0.4)
     with pytest.raises(texere.Error):
-        texere.read_curves(tmp_path / "plain.bcc", diameter=-1.0)
+        texere.read_curves(tmp_path / "plain.bcc", diameter_mm=-1.0)
 
 
 @pytest.mark.parametrize("suffix", ["ply", "obj", "glb"])

@@ -154,7 +154,7 @@ CALLS = {
     "a turn of NaN": lambda: woven().placed().picture(view="oblique", turn=NAN),
     "an eye in its target": lambda: woven().placed().picture(view="eye", eye=([0, 0, 0],) * 3),
     "no samples": lambda: woven().placed().picture(size=(8, 8), supersampling=0),
-    "an unknown layer": lambda: woven().placed().picture(size=(8, 8), layers=["crossing"]),
+    "an unknown layer": lambda: woven().placed().picture(size=(8, 8), layers=["colour"]),
     "an unknown background": lambda: woven().placed().picture(size=(8, 8), background="sky"),
     # Files.
     "a path of another ending": lambda: woven().write("design.doc"),

@@ -2,13 +2,15 @@
 
 import doctest
 import inspect
+import json
 import subprocess
 import sys
 import textwrap
 
+import pytest
 import texere
 
-from test_examples import NAMES
+from test_examples import NAMES, ROOT
 
 
 def run(*args):
@@ -44,3 +46,20 @@ def test_a_wrong_type_is_seen(tmp_path):
         text=True,
     )
     assert done.returncode == 1 and "assignment" in done.stdout
+
+
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
+def test_notebooks_are_strictly_typed(notebook, tmp_path):
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    assert "import texere" in code[0] and len(code) > 4
+    module = tmp_path / f"{notebook.stem}.py"
+    module.write_text("\n\n".join(code), encoding="utf-8")
+    run("-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), str(module))
+
+
+def test_there_are_notebooks():
+    assert len(NOTEBOOKS) == 2

@@ -12,6 +12,7 @@ wales, z out of the technical face. Yarns, ends, picks and courses are counted f
 
 from ._texere import (
     Bar,
+    Change,
     Clearance,
     Cloth,
     Contact,
@@ -38,6 +39,7 @@ from ._texere import (
 
 __all__ = [
     "Bar",
+    "Change",
     "Clearance",
     "Cloth",
     "Contact",

@@ -32,4 +32,5 @@ mod rolls;
 mod serial;
 
 pub use backend::{ParallelBackend, SerialBackend};
+pub use pages::prefer_huge;
 pub use pick::{Hit, PickError, Picker};

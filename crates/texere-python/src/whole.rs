@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use texere::backend::{Chunk, MeshMut, Plan, Run, Session, zeroed};
+use texere::backend::{Chunk, MeshMut, Plan, Run, Session, prefer_huge, zeroed};
 use texere::mesh::{Attribute, Limits, Progress, Topology};
 use texere::{Backend, PipelineError, Settings, Vertex, Yarns};
 
@@ -93,6 +93,7 @@ impl Laid {
     fn indices(&self) -> Result<Vec<u32>, PipelineError> {
         let pattern = self.plan.shared_indices();
         let mut indices = zeroed("indices", 3 * self.plan.counts().triangles)?;
+        prefer_huge(&indices);
         let (mut rest, mut draws) = (&mut indices[..], Vec::new());
         for is_cap in [false, true] {
             for (chunk, place) in &self.chunks {
@@ -125,6 +126,7 @@ impl Whole {
     ) -> Result<Self, PipelineError> {
         let laid = Laid::new(yarns, settings, device)?;
         let mut vertices: Vec<Vertex> = zeroed("vertices", laid.plan.counts().vertices)?;
+        prefer_huge(&vertices);
         let mut session = laid.session(yarns, device, run)?;
         // Caps of a chunk lie where the next chunk is written.
         let mut caps = Vec::new();

@@ -20,6 +20,7 @@
 //! | run a plan, with its results in the program's own memory | [`Run`] |
 //! | drive a backend chunk by chunk | [`Session`], [`Slot`], [`StageTimings`] |
 //! | keep a mesh on a device, and edit it without a structure | [`LiveMesh`], [`Edits`] |
+//! | have new memory filled without a page fault for each 4 kB | [`prefer_huge`] |
 //!
 //! ```
 //! use texere::Backend;
@@ -34,3 +35,4 @@ pub use texere_core::backend::{
     WINDOW_POINTS, filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
 };
 pub use texere_core::{OutOfMemory, crossings, definitions, settling};
+pub use texere_cpu::prefer_huge;

@@ -148,6 +148,6 @@ impl<'a> Map<'a> {
 }
 
 /// The sRGB value of a linear one (IEC 61966-2-1).
-fn encoded(linear: f32) -> f32 {
+pub(crate) fn encoded(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::Maps;
+use crate::images::encoded;
 
 /// A side of a material in its document.
 pub(crate) struct Visual<'a> {
@@ -121,8 +122,7 @@ impl Visual<'_> {
             let (sum, share) = shown.fold((0.0, 0.0), |(sum, share), (color, alpha)| {
                 (sum + f64::from(color[channel] * alpha), share + f64::from(*alpha))
             });
-            let linear = if share > 0.0 { sum / share } else { 0.0 };
-            if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+            encoded(if share > 0.0 { (sum / share) as f32 } else { 0.0 })
         });
         json!({ "r": mean[0].clamp(0.0, 1.0), "g": mean[1].clamp(0.0, 1.0), "b": mean[2].clamp(0.0, 1.0) })
     }

@@ -40,12 +40,28 @@ fn what_is_abandoned_is_gone_and_nothing_is_written_after_it() {
             write::stream(stopping, &SerialBackend::new(), &path)
         });
         work.recv().unwrap();
-        assert_eq!(names(), 3);
+        let (begun, is_begun) = mpsc::channel();
+        let (fill_on, filling) = mpsc::channel::<()>();
+        let maps = folder.path().join("maps");
+        let filler = scope.spawn(move || {
+            write::folder(maps, |unfinished| {
+                fs::write(unfinished.join("one.png"), "half").unwrap();
+                begun.send(()).unwrap();
+                let _ = filling.recv();
+                Ok::<(), WriteError>(())
+            })
+        });
+        is_begun.recv().unwrap();
+        assert_eq!(names(), 4);
         write::abandon();
         assert_eq!(names(), 2);
-        drop(go_on);
+        drop((go_on, fill_on));
         assert!(interrupted(&writer.join().unwrap().unwrap_err()));
+        // Whatever was left to do in the folder can't be done.
+        assert!(filler.join().unwrap().is_err());
     });
+    let folder_after = write::folder(folder.path().join("maps"), |_| Ok::<(), WriteError>(()));
+    assert!(interrupted(&folder_after.unwrap_err()));
     assert!(interrupted(&write::file(b"more", &done).unwrap_err()));
     assert_eq!((fs::read(&path).unwrap(), fs::read(&done).unwrap()), (b"old".to_vec(), b"whole".to_vec()));
     assert_eq!(names(), 2);

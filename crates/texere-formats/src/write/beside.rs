@@ -33,8 +33,11 @@ impl Beside {
     /// Puts both files in their places, the mesh last. Returns the length of the mesh file, bytes.
     ///
     /// **Errors**: [`WriteError::Io`], [`WriteError::Spared`].
-    pub(super) fn commit(self, mesh: Target<Unfinished>) -> Result<u64, WriteError> {
+    pub(super) fn commit(self, mut mesh: Target<Unfinished>) -> Result<u64, WriteError> {
         if let Some(beside) = self.0 {
+            // Whatever may still go wrong with the mesh goes wrong before the other file has its
+            // name.
+            mesh.settle()?;
             beside.commit()?;
         }
         mesh.commit()

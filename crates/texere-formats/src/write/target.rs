@@ -154,6 +154,12 @@ impl Target<Unfinished> {
         Ok(Self::over(file, 0, Some(path)))
     }
 
+    /// Brings all bytes to the disk, and looks whether the file may still take its place.
+    pub(super) fn settle(&mut self) -> Result<(), WriteError> {
+        self.flush().map_err(|source| self.failed(source))?;
+        self.out.settle()
+    }
+
     /// Puts the file in its place. Returns the file's length in bytes.
     pub(super) fn commit(self) -> Result<u64, WriteError> {
         self.into_inner()?.finish()

@@ -166,6 +166,13 @@ impl Unfinished {
         self.place.path()
     }
 
+    /// Brings all bytes to the disk, and looks whether the file may still take its place.
+    pub(super) fn settle(&self) -> Result<(), WriteError> {
+        let synced = self.file.as_file().sync_all();
+        synced.map_err(|source| WriteError::io("write", self.place.path(), source))?;
+        self.place.check().map(drop)
+    }
+
     /// Puts the file in its place atomically. Returns the file's length in bytes.
     pub(super) fn finish(self) -> Result<u64, WriteError> {
         let Self { place, entry, file } = self;

@@ -181,7 +181,12 @@ fn both_files_are_spared() {
     assert!(matches!(error, WriteError::Spared { .. }), "{error}");
     assert_eq!(fs::read(&materials).unwrap(), b"kept");
     assert!(!path.exists());
+    // Where the mesh can't take its place, its materials don't either.
     fs::remove_file(&materials).unwrap();
+    fs::create_dir(&path).unwrap();
+    assert!(matches!(write::mesh(&mesh, &path).unwrap_err(), WriteError::Io { .. }));
+    assert!(!materials.exists());
+    fs::remove_dir(&path).unwrap();
     fs::create_dir(&materials).unwrap();
     assert!(matches!(write::mesh(&mesh, &path).unwrap_err(), WriteError::Io { .. }));
     assert!(!path.exists());

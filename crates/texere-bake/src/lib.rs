@@ -1,6 +1,6 @@
 //! Cloth baked to maps: what a plane needs to look like the yarns' geometry.
 //!
-//! [`bake`] lets one repeat of a design come to rest amid copies of itself, looks at it straight
+//! [`bake()`] lets one repeat of a design come to rest amid copies of itself, looks at it straight
 //! from above its face and its back, and keeps what it sees in [`Maps`]: colour, share of yarn,
 //! normal, height, roughness, ambient occlusion, and which yarn lies where. The maps have the
 //! cloth's true size, and go on at their edges. [`BakedCloth::write`] puts them into a folder with

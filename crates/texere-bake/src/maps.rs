@@ -43,7 +43,7 @@ pub struct Maps {
     /// **Source**: Burley 2012 (roughness is the root of the width α), Toksvig 2005 (the width of
     /// normals from the length of their mean).
     pub roughness: Vec<f32>,
-    /// The share of the light of an even sky that reaches the texel, from 0 to 1: [`occlusion`].
+    /// The share of the light of an even sky that reaches the texel, from 0 to 1: [`occlusion()`].
     pub occlusion: Vec<f32>,
     /// The yarn in the texel's middle, as a number in [`Maps::yarns`].
     pub yarn: Vec<u32>,

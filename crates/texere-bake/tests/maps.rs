@@ -95,7 +95,9 @@ fn maps_look_like_the_geometry() {
         let resting = design(text).rest(&device).run().unwrap();
         let yarns = resting.yarns();
         let settings = Settings { sides: 24, ..Settings::of(yarns) }.following_fibres(yarns);
-        let mut scene = renderer().scene(yarns, &settings).unwrap();
+        // The device is this test's own until the scene is gone.
+        let renderer = renderer();
+        let mut scene = renderer.scene(yarns, &settings).unwrap();
         let fine = maps.size.map(|texels| texels * 4);
         let camera =
             Camera::plan(scene.extent(), low.map(|mm| mm as f32), size.map(|mm| mm as f32), fine).unwrap();

@@ -18,7 +18,7 @@ use crate::{FabricError, Repeat, Structure};
 /// // Four ends and four picks, half a millimetre each.
 /// let [low, size] = tile.area_mm(&tile.structure);
 /// assert_eq!(size, [2.0, 2.0]);
-/// assert!(low[0] > 4.0 && tile.structure.size_mm()[0] > low[0] + size[0] + 4.0);
+/// assert!(low[0] > 2.0 && tile.structure.size_mm()[0] > low[0] + size[0] + 2.0);
 /// // End 1 of the tile, and the end that lies beside its last end.
 /// let first = (low[0] / 0.5).round() as u32;
 /// assert_eq!(tile.origin(Origin::End(first + 1)), Origin::End(1));

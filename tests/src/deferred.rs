@@ -1,9 +1,9 @@
 //! A backend that behaves like a GPU, with the output of the gold reference.
 //!
-//! A launch only records the work, which is done when it is read. Chunks are as small as possible.
-//! Results come in small pieces from memory that held NaN before, and a third chunk uses the memory
-//! of the first. The backend thus shows whether the core or the suite relies on results being there
-//! early, as they are on a CPU.
+//! A launch only records the work. The work is done when its results are read. Chunks are as small
+//! as possible. Results come in small pieces from memory that held NaN before, and a third chunk
+//! uses the memory of the first. The backend thus shows whether the core or the suite relies on
+//! results being there early, as they are on a CPU.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -140,8 +140,9 @@ fn the_integral_of_linked_circles_is_one() {
 ///
 /// Jersey, warp knits of one bar, and weaves are as clear as their models promise. In rib, garter,
 /// tuck, miss and lace, each half of a loop lies on the side of the loop that crosses it there, and
-/// loops on one needle lie in layers. They begin clearer than equal loops, which would pierce to
-/// 0.4. The two bars of a warp knit always pierce one another at the start.
+/// loops on one needle lie in layers. These starts are clearer than they would be with loops that
+/// are all equal, which would pierce to 0.4. The two bars of a warp knit always pierce one another
+/// at the start.
 const LISTED: [(&str, f64, f64, f64); 39] = [
     ("jersey-4.2", 0.995, 0.715, 2.27),
     ("jersey-5", 1.003, 0.956, 2.22),

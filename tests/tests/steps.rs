@@ -134,7 +134,8 @@ fn a_scan_is_watched_and_ends_where_it_is_asked_to() {
     let (yarns, points) = (twisted(), 480_000_usize.div_ceil(1 << 20));
     for name in ["cpu", "cpu-serial"] {
         let device = texere::open(name).unwrap();
-        // A yarn has 160,000 rings, more than go by unasked: scan and lengths ask before each.
+        // A yarn has 160,000 rings, more than are worked on between two reports. The scan and the
+        // measurement of lengths therefore report before each yarn.
         assert_eq!(early(&*device, &yarns, |_| false), points + 6 + 6, "{name}");
         for last in [points, points + 1, points + 6, points + 7] {
             assert_eq!(early(&*device, &yarns, |reports| reports == last), last, "{name}");

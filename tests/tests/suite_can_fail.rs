@@ -257,7 +257,7 @@ fn a_backend_taken_out_of_the_registry_fails_by_name_where_it_is_required() {
     }
 }
 
-/// A schedule that refuses some cases has to refuse exactly these.
+/// A backend has to refuse exactly the cases that its schedule leaves out.
 #[test]
 fn a_backend_that_refuses_too_little_or_too_much_fails() {
     let failures = |name: &str, registry: &[Entry]| failures(&format!("{name}::upright::"), registry, "");

@@ -32,8 +32,8 @@ pub struct Drawn {
 /// Measures the tubes of a mesh of `yarns` with `settings`, without caps. The measurement needs as
 /// much memory as the yarns take.
 ///
-/// **Errors**: [`ContactError::Settings`] for settings that no mesh of `yarns` is made with, and
-/// [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::Settings`] for settings with which no mesh of `yarns` can be made,
+/// and [`ContactError::OutOfMemory`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Settings, Yarn, Yarns};
@@ -190,8 +190,9 @@ fn each_ring(plan: &Plan, points: &PaddedPoints, yarn: usize, mut see: impl FnMu
 /// A triangle has an edge of the outline in the plane of one ring, and its third corner on the
 /// other ring. Outlines go counter-clockwise about the tangent, so an edge crossed with the tangent
 /// points out of the outline, wherever the axis lies. The triangle's normal is that edge crossed
-/// with the way along the yarn to or from the third corner. The triangle faces outwards if that way
-/// goes with the tangent.
+/// with a vector between the rings: to the third corner if it lies on the next ring, and from it if
+/// it lies on this ring. The triangle faces outwards if this vector and the tangent point to the
+/// same side.
 fn between(here: &Standing, next: &Standing) -> (f64, u64) {
     let carry = DQuat::from_rotation_arc(here.tangent, next.tangent);
     let (mut width, mut inwards) = (1.0_f64, 0);

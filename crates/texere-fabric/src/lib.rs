@@ -22,7 +22,7 @@
 //!
 //! [`Measures`] are what designers ask for: yarn consumption, weight, thickness, crimp and cover of
 //! woven cloth, loops of knits. [`diameter_mm`] gives the diameter of a yarn of known weight.
-//! [`texere_contact`] measures the yarns of any structure, and needs no structure to do it.
+//! [`texere_contact`] measures any yarns, also those that belong to no structure.
 //!
 //! ```
 //! use texere_core::{Material, Section};

@@ -74,7 +74,7 @@ impl Structure {
 
 impl Tile {
     /// The repeat's lower left corner (x, y), and its width and height, mm. `structure` is
-    /// [`Tile::structure`], or what a stretch made of it.
+    /// [`Tile::structure`], stretched ([`Structure::stretch`]) or not.
     #[must_use]
     pub fn area_mm(&self, structure: &Structure) -> [[f64; 2]; 2] {
         match (self.kind, structure) {
@@ -96,7 +96,8 @@ impl Tile {
         }
     }
 
-    /// What made a yarn, counted within the repeat from 1. A yarn and its copies have one origin.
+    /// The origin of a yarn, with the number of its end, pick or guide counted within the repeat,
+    /// from 1. A yarn and its copies have one origin.
     #[must_use]
     pub fn origin(&self, origin: Origin) -> Origin {
         let within = |number: u32, before: u64, count: u64| {
@@ -131,8 +132,8 @@ impl Structure {
     }
 }
 
-/// Copies of a knit's smallest repeat: those that settle as one piece, and as many pieces on each
-/// side as reach into it.
+/// Copies of a knit's smallest repeat. Some of them settle as one piece. On each side of this piece
+/// lie as many equal pieces as have yarns that reach into it, and one more.
 #[derive(Debug, Clone, Copy)]
 struct Copies {
     before: [u32; 2],
@@ -145,12 +146,13 @@ impl Copies {
     /// The copies of a repeat of `size` wales and courses, each `cell` mm. `repeat` is the piece
     /// that settles.
     fn of(size: [u32; 2], cell: [f64; 2], repeat: &Repeat) -> Self {
-        // So many copies have every number up to 16 as a divisor.
+        // The least number that all numbers from 1 to 16 divide. `settled_together` tries these
+        // numbers.
         const MANY: u32 = 720_720;
         let tiles = settled_together(size, [MANY; 2]);
         let count = [0, 1].map(|axis| size[axis] * tiles[axis]);
         let beyond = overhang(&repeat.piece.yarns, repeat.piece.boundary.repeat());
-        // One piece more, since a yarn that is cut off bends otherwise at its end.
+        // One piece is added, because a yarn that is cut off bends differently at its end.
         let sides = [0, 1]
             .map(|axis| 1 + (f64::from(beyond[axis]) / (cell[axis] * f64::from(count[axis]))).ceil() as u32);
         Self {

@@ -16,12 +16,12 @@ pub struct DeviceMesh<'a> {
     /// A `cl_mem` with the chunk's `u32` indices from its start, or null if the chunk has none.
     pub indices: *mut c_void,
     /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices, if they were
-    /// made. It is null if no attributes were ever made in this memory. Otherwise, it may hold the
-    /// attributes of an earlier chunk.
+    /// made. If none were made for this chunk, it holds those of an earlier chunk, or is null if
+    /// this memory never had any.
     pub attributes: *mut c_void,
     /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start, if
-    /// they were made. It is null if no packed vertices were ever made in this memory. Otherwise,
-    /// it may hold the packed vertices of an earlier chunk.
+    /// they were made. If none were made for this chunk, it holds those of an earlier chunk, or is
+    /// null if this memory never had any.
     pub packed: *mut c_void,
     /// The `cl_event` of the last command that writes these buffers. Wait for it, on the host or in
     /// a queue.

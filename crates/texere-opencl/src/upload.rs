@@ -207,9 +207,9 @@ impl Flight<'_> {
             let start = slot.add((first - piece.range.start) as usize);
             std::slice::from_raw_parts_mut(start, (part.end - part.start) as usize)
         };
-        // The last pieces are written past the caches. Cores may go to sleep after these pieces,
-        // and the device then reads data slowly that still lies in their caches: it took up to four
-        // times as long. If all pieces were written past the caches, they would slow down the
+        // The last pieces are written past the caches. Cores may go to sleep after these pieces.
+        // The device then took up to four times as long to read data that still lay in the caches
+        // of sleeping cores. If all pieces were written past the caches, they would slow down the
         // device's own reads of memory.
         pad(self.upload, part, padded, number + self.slots.len() >= self.pieces.len());
         if piece.left.fetch_sub(1, Ordering::AcqRel) == 1 {

@@ -175,7 +175,7 @@ impl WgpuBackend {
     }
 
     /// Runs `work`, a caller's own calls on the device and its queue, so that a fault in `work`
-    /// becomes an error and not a panic. `call` names it in the error.
+    /// becomes an error and not a panic. `call` is the name of the work in the error.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {

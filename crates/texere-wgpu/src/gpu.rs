@@ -101,7 +101,7 @@ impl Gpu {
         errors.reduce(|first, _| first).map_or(Ok(result), Err)
     }
 
-    /// Runs `work` within error scopes. `call` names it in an error.
+    /// Runs `work` within error scopes. `call` is the name of the work in an error.
     ///
     /// **Errors**: [`BackendError::DeviceLost`], [`BackendError::Driver`].
     pub(crate) fn scoped<T>(&self, call: &'static str, work: impl FnOnce() -> T) -> Result<T, BackendError> {

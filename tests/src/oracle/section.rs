@@ -76,7 +76,8 @@ fn ellipse(aspect: f64, angle: f64) -> OutlinePoint {
     OutlinePoint::new(width * angle.cos(), height * angle.sin(), height * angle.cos(), width * angle.sin())
 }
 
-/// The point (a cos θ, ±|sin θ|ⁿ) of a power ellipse. The outline is upright at its two edges.
+/// The point (a cos θ, ±|sin θ|ⁿ) of a power ellipse of aspect a and exponent n. The outline is
+/// upright at its two edges.
 fn power_ellipse(aspect: f64, exponent: f64, angle: f64) -> OutlinePoint {
     let (sin, cos) = angle.sin_cos();
     if sin.abs() < 1e-9 {
@@ -104,7 +105,7 @@ struct Arc {
 }
 
 impl Arc {
-    /// One of the arcs of a lens, which is 2 a wide and 2 high. The edges of the lens lie
+    /// One of the arcs of a lens, which is 2 `aspect` wide and 2 high. The edges of the lens lie
     /// `distortion` above the middle.
     fn new(aspect: f64, distortion: f64, up: f64) -> Self {
         let rise = 1.0 - up * distortion;
@@ -136,15 +137,16 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     point
 }
 
-/// Half the height from the valley between two plies to a ply's outermost point. Round plies that
-/// touch leave a valley at cos(π/p) / (1 + sin(π/p)) of a ply's outermost distance, which counts as
-/// at least a half.
+/// Half the height from the valley between two plies to a ply's outermost point. If p round plies
+/// touch, the valley is at cos(π/p) / (1 + sin(π/p)) of a ply's outermost distance. This share
+/// counts as at least a half.
 fn lobe_depth(plies: f64) -> f64 {
     let valley = (PI / plies).cos() / (1.0 + (PI / plies).sin());
     (1.0 - valley.max(0.5)) / 2.0
 }
 
-/// The point at the angle θ of an outline whose distance from the axis is 1 - depth (1 - cos pθ).
+/// The point at the angle θ of the outline of p plies, whose distance from the axis is 1 - depth (1
+/// - cos pθ).
 fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
     let distance = 1.0 - depth * (1.0 - (plies * angle).cos());
     let change = -depth * plies * (plies * angle).sin();

@@ -23,9 +23,9 @@ pub struct Place {
 pub struct Report {
     /// The least distance between two centrelines, divided by the sum of their radii. Copies of the
     /// cloth in the repeats beside it count, too. Two places of one yarn count only if the yarn
-    /// between them is at least pi/2 times the sum of the radii long. That is half of the smallest
-    /// ring into which the yarn can be bent before it touches itself. A straight yarn therefore has
-    /// a clearance of about pi/2 from itself, so no clearance is much larger.
+    /// between them is at least pi/2 times the sum of the radii long. That is half the length of
+    /// the smallest ring into which the yarn can be bent before it touches itself. A straight yarn
+    /// therefore has a clearance of about pi/2 from itself, so no clearance is much larger.
     pub clearance: f64,
     /// The two places of the least distance. None if no two places count.
     pub nearest: Option<[Place; 2]>,

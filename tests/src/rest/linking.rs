@@ -17,7 +17,7 @@ use super::segments::closest;
 use super::{Ends, Start};
 
 /// The change of a window's integral above which a yarn has passed through another. A strand that
-/// passes through another one, far from its ends, changes it by 1.
+/// passes through another one, far from its ends, changes the integral by 1.
 pub const CROSSED: f64 = 0.6;
 
 /// Number of intervals of a window to each side of its middle.

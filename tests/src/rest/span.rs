@@ -11,7 +11,7 @@ use super::{Ends, Length, Start, StartYarn};
 ///
 /// # Panics
 ///
-/// For yarns without points, which do not exist.
+/// If a yarn has no points. [`Yarns`] refuses such a yarn.
 #[must_use]
 pub fn piece_points(yarns: &Yarns) -> Vec<Vec<DVec3>> {
     let position = |yarn| yarns.yarn_points(yarn).expect("a yarn").iter().map(|at| at.position().as_dvec3());

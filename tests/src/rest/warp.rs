@@ -6,8 +6,8 @@
 //! the face (+z). The underlap, from needle to needle, lies on the back.
 //!
 //! With two bars each needle has loops of two yarns. Both come through both loops of the course
-//! below: the legs of either lie in front of the heads of either. The front bar is named first. Its
-//! loops are foremost on the face, and its underlaps hindmost on the back.
+//! below. The legs of each loop lie in front of the heads of both. The front bar is named first.
+//! Its loops are foremost on the face, and its underlaps hindmost on the back.
 
 use glam::DVec3;
 

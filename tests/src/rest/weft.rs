@@ -3,12 +3,12 @@
 //! A plain loop has twelve points: round arcs, and legs that make a V. Here loops are drawn to the
 //! face. For loops that are drawn to the back, z changes its sign.
 //!
-//! - A loop comes through the loops that hang on its needle. Its feet pass behind their upper legs,
-//!   and its own legs pass in front of their heads. The lower half of a loop therefore lies on the
-//!   side to which it is drawn itself, and the upper half on the side to which the next loop is
-//!   drawn.
+//! - A loop comes through the loops that hang on its needle. Its feet pass behind the upper legs of
+//!   those loops, and its legs pass in front of their heads. The lower half of a loop therefore
+//!   lies on the side to which the loop itself is drawn, and the upper half on the side to which
+//!   the next loop is drawn.
 //! - A needle that does not knit keeps its loop, whose upper half lies higher by the courses that
-//!   the needle leaves out. The yarn of a missed course floats past behind it.
+//!   the needle leaves out. The yarn of a missed course floats past behind that loop.
 //! - A tuck is an arch that hangs on the needle behind the held loop. The next loop is drawn
 //!   through both, and its feet pass behind the tuck. The legs of the tuck lie behind those of the
 //!   held loop.

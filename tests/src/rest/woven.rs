@@ -9,8 +9,8 @@ use super::{Ends, Length, Start, StartYarn};
 pub struct Weave {
     /// Number of ends and of picks in a repeat.
     pub size: usize,
-    /// The number of picks by which the pick that an end lies under is higher than that of the end
-    /// before.
+    /// If an end lies under a pick, the next end lies under the pick that is this many picks
+    /// further up.
     pub step: usize,
     /// The number of picks after which an end lies under a pick again.
     pub order: usize,

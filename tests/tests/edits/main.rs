@@ -344,7 +344,8 @@ fn editing() -> Vec<Arc<dyn Backend>> {
 }
 
 /// Each point of a long yarn moves by itself, and the mesh equals a fresh one. In an open yarn at
-/// most two blocks are made again: at the end of a block, a point affects rings of both.
+/// most two blocks are made again: a point at the end of a block affects rings of this block and of
+/// the next one.
 #[test]
 fn each_point_of_a_long_yarn_moves_alone() {
     let device = &texere_cpu::SerialBackend::new();

@@ -19,8 +19,9 @@ const DIAMETERS: [f64; 2] = [0.08, 0.1];
 
 /// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a
 /// bend whose radius is half its thickness; the head of a loop whose legs touch is such a bend. The
-/// radius at which settling aims is no bound for all figures. Its passes are limited, and it
-/// returns the best by clearance, then by bends. Random figures end between 0.57 and 0.62.
+/// radius at which settling aims is no bound for all figures. Settling makes a limited number of
+/// passes, and returns the best of them by clearance, then by bends. Random figures end between
+/// 0.57 and 0.62.
 const FOLD: f64 = 0.5;
 
 /// The bars of the paper's figure 7c: JB1, with a figure of thin, thick and open places, in front

@@ -104,7 +104,7 @@ fn ratio_of(a: &At, b: &At) -> f64 {
     (a.position - b.position).length() / (a.radius()[0] + b.radius()[0])
 }
 
-/// The first parameter of an approach, if the approach belongs to its interval.
+/// The parameter of an approach on the interval `side`, if the approach belongs to this interval.
 ///
 /// At a knot within a yarn the earlier interval owns the approach if the distance clearly rises at
 /// the knot, because the minimum then lies before the knot. Both intervals find the same slope

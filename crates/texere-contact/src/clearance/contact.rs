@@ -30,7 +30,8 @@ pub const CLEARANCE_ACCURACY: f64 = 1e-3;
 pub const CONTACTS_LISTED: usize = 100;
 
 /// The most intervals that one interval is compared with in a cell of the search. In a cell of more
-/// than 256 intervals, only those that meet one plane through it are compared.
+/// than 256 intervals, a plane sweeps through the cell, and only intervals that the plane meets at
+/// the same time are compared.
 ///
 /// Yarns that are clear of one another reach this number only if some 250 control points lie on a
 /// length of one radius, or if a thousand straight yarns of two points lie side by side.

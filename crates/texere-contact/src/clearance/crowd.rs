@@ -17,10 +17,10 @@ pub struct Crowd {
     /// Number of control intervals there.
     pub intervals: usize,
     /// The volume of the yarns over that of the box that holds them. Above 1 they must pierce one
-    /// another or fold, and the least [ratio](crate::Contact::ratio) there is 1/√fill at most. Up
-    /// to 1 only their number is too high (see [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)):
-    /// control points lie much closer than the yarns are thick, or very long intervals lie side by
-    /// side.
+    /// another or fold, and the least [ratio](crate::Contact::ratio) there is 1/√fill at most. If
+    /// it is 1 or less, only the number of intervals is too high (see
+    /// [`CLEARANCE_BESIDE`](crate::CLEARANCE_BESIDE)): control points lie much closer than the
+    /// yarns are thick, or very long intervals lie side by side.
     pub fill: f64,
 }
 

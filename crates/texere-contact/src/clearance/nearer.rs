@@ -7,8 +7,8 @@ use glam::{DVec2, DVec4, Vec4Swizzles};
 
 use super::interval::{Cubic, closest, off_chord};
 
-/// The most halvings of an interval. Of a piece that has been halved so often, only one place is
-/// compared.
+/// The most halvings of an interval. A piece that comes from so many halvings is compared at one
+/// place only.
 const HALVINGS: u32 = 12;
 
 /// A piece of an interval: centreline and radius as one Bézier polygon in four dimensions.

@@ -230,8 +230,8 @@ impl<'a> Pair<'a> {
                 break;
             }
         }
-        // Where a yarn doubles back, the way downhill leads to a fold, which is no contact. A
-        // contact on that way may be too shallow for the usual chords.
+        // Where a yarn doubles back, refinement descends to a fold, which is no contact. A contact
+        // that it passes on the way may be too shallow for the usual chords.
         if self.same && valley.get() && lost.get() {
             let [first, second] = [a, b].map(|curve| Fine::of(&curve.cubic, SAGITTA_FINE));
             first.approaches(&second, self.near * self.reach, true, |starts| {

@@ -196,7 +196,8 @@ impl Tried {
         }
     }
 
-    /// The least growth so far, or the greatest that is looked for.
+    /// The least growth so far or, if no touch is known yet, the greatest growth that is looked
+    /// for.
     fn level(&self) -> f64 {
         self.best.map_or(CLEARANCE_NEAR, |found| found.growth)
     }

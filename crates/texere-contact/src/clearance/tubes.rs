@@ -160,8 +160,8 @@ impl<'a> Meeting<'a> {
     }
 
     /// The touch of yarns side by side, along the direction that separates them best, across the
-    /// first yarn. The way along the yarns goes into the offset. The ratio is a linear function of
-    /// the direction over a convex one, and therefore has one maximum.
+    /// first yarn. The distance of the two places along the yarns goes into the offset. The ratio
+    /// is a linear function of the direction over a convex one, and therefore has one maximum.
     fn beside(&self) -> Touch {
         let ([tangent, tangent_b], apart) = (self.tangents, self.apart());
         let along = apart.dot(tangent);

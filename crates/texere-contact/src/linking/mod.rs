@@ -37,8 +37,9 @@ const TASK: usize = 1024;
 /// place where a passage may have happened, a window of either yarn is cut out, and the integral of
 /// both windows before is compared with the integral after. The yarns have passed if the integral
 /// has changed by more than [`LINKING_CHANGE`]. In cloth that is bent, stretched, sheared or rolled
-/// up, it changes by 0.13 at most. If an end changes sides, or a stitch is dropped or pulled, it
-/// changes by 0.86 to 1.03, and half a pitch from the cloth's edge by 0.8.
+/// up, the integral changes by 0.13 at most. If an end changes sides, or a stitch is dropped or
+/// pulled, the integral changes by 0.86 to 1.03, or by 0.8 if this happens half a pitch from the
+/// cloth's edge.
 ///
 /// A window has eight control intervals, or reaches five diameters each way if that is more. It
 /// holds a crossing and the yarn on both sides of it, and is too short for passages to cancel out.
@@ -56,9 +57,9 @@ const TASK: usize = 1024;
 ///
 /// Two pieces of one yarn count like pieces of two yarns if their windows are apart. A yarn that
 /// slips past a cut end has passed through nothing. With a repeat in `boundary`, yarns meet the
-/// copies of other yarns, and windows go on over the edge. Points of `after` must be where they
-/// have moved to, and must not be brought back into the repeat. Only centrelines are compared, so
-/// sections don't matter.
+/// copies of other yarns, and windows go on over the edge. A point of `after` that has left the
+/// repeat must stay where it is, and must not be moved back into the repeat. Only centrelines are
+/// compared, so sections don't matter.
 ///
 /// Time grows with the control points and with how far they have moved. A million control points
 /// take half a second on two cores if they have moved little, one second if they have moved half a

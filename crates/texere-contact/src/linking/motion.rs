@@ -44,8 +44,8 @@ fn meets(
     [start, end]: [(f32, f32); 2],
     halvings: u32,
 ) -> bool {
-    // The distance falls no faster than `motion` from either end, and is least at the time when
-    // both falls meet.
+    // From either end the distance falls by `motion` times the time at most. Its lower bound is
+    // least at the time at which the bounds from both ends meet.
     if start.1 + end.1 - motion * (end.0 - start.0) > 2.0 * apart {
         return false;
     }

@@ -21,8 +21,8 @@ pub(super) const WINDOW_INTERVALS: usize = 8;
 /// points or 96.
 pub(super) const WINDOW_REACH: f64 = 5.0;
 
-/// The most control intervals beside one that are tested in a cell of the search. Cloth has some
-/// 20, and 300 if four control points lie on a length of one radius.
+/// The most control intervals that are tested against one interval in a cell of the search. Cloth
+/// has some 20, and 300 if four control points lie on a length of one radius.
 pub(super) const LINKING_BESIDE: usize = 512;
 
 /// The most windows that one window is compared with in a cell. Cloth has a few where something has
@@ -46,8 +46,8 @@ pub struct Linking {
     /// Number of pairs of windows whose integral was computed.
     pub compared: u64,
     /// Number of pairs of control intervals that were left out because more than 512 intervals lay
-    /// beside one, or more than 128 could have passed through it. It is 0 unless far too much yarn
-    /// lies in one place.
+    /// beside one interval, or more than 128 could have passed through it. It is 0 unless far too
+    /// much yarn lies in one place.
     pub left_out: u64,
 }
 

@@ -156,9 +156,9 @@ impl<'a> Shapes<'a> {
 
     /// The motion of interval `number` against the mean motion `shift`.
     ///
-    /// Two places that meet on a straight way are no further from one another before than they move
-    /// against one another. The margin is the interval's motion, but at most a quarter of half a
-    /// window.
+    /// If two places move along straight lines and meet on the way, their distance before is no
+    /// more than their motion against one another. The margin is the interval's motion, but at most
+    /// a quarter of half a window.
     fn measure(&self, number: usize, shift: Vec3A) -> Motion {
         let (yarn, interval) = self.yarn_of(number);
         let strands = self.strands(yarn);

@@ -74,7 +74,7 @@ impl<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool
         Self { rings, centre: plus(rings.centre, [simd.splat(0.0); 3]) }
     }
 
-    /// The way from the centre to `point`, and the normal there.
+    /// The vector from the centre to `point`, and the normal there.
     #[cfg_attr(optimized, inline(always))]
     fn outward(&self, simd: S, point: &SectionPoint) -> [[S::Floats; 3]; 2] {
         let (wide, high) = (self.rings.half_width, self.rings.half_height);
@@ -128,7 +128,7 @@ impl<S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> St
 /// another.
 pub(super) struct SixSided<S: Simd> {
     centre: [S::Floats; 3],
-    /// For each of the first three points: the way from the centre to the point, and the normal
+    /// For each of the first three points: the vector from the centre to the point, and the normal
     /// there.
     first: [[[S::Floats; 3]; 2]; 3],
 }

@@ -4,8 +4,8 @@ use texere_core::Bounds;
 
 use super::beam::Beam;
 
-/// A row of boxes in a tree: a box round each two neighbours, a box round each two of the boxes
-/// made so, and so on up to one box round all.
+/// A row of boxes in a tree. Each two neighbours of the row have a box round them, each two
+/// neighbours among these boxes have a box round them, and so on, up to one box round all.
 ///
 /// Node 1 is the root, nodes 2i and 2i + 1 lie below node i, and the last half of all nodes are
 /// leaves. The leaves in the lowest level hold the first boxes of the row. Each node thus holds

@@ -311,7 +311,7 @@ fn piece(cloth: &Woven, [ends, picks]: &Sample) -> Result<Woven, FabricError> {
     let drawdown = Drawdown::from_fn(ends.len(), picks.len(), up)?;
     let mut piece =
         cloth.like(drawdown, cloth.warp()[ends.clone()].to_vec(), cloth.weft()[picks.clone()].to_vec())?;
-    // The threads of the sample alone might give another share.
+    // The threads of the sample alone might give the warp another share of the crimp.
     piece.set_crimp(Crimp::WarpShare(cloth.warp_share()))?;
     Ok(piece)
 }

@@ -1,8 +1,8 @@
 //! Pieces of an endless cloth: yarns of one repeat that hold one another, within the repeat or
 //! across its edges.
 //!
-//! The method is union-find. Each yarn points to another yarn of its piece, and along these
-//! pointers to the root of the piece. A pointer also keeps the copy of the repeat in which the
+//! The method is union-find. Each yarn points to another yarn of its piece. A walk along these
+//! pointers ends at the root of the piece. A pointer also keeps the copy of the repeat in which the
 //! other yarn lies. A piece may come back to its own yarn in another copy of the repeat. The root
 //! keeps the ways to all such copies. The ways form a lattice, from which the pieces in any number
 //! of copies are counted.
@@ -59,7 +59,7 @@ impl Joined {
     /// one piece.
     pub(crate) fn join(&mut self, one: usize, other: usize, shift: Shift) {
         let ((one, first), (other, second)) = (self.root(one), self.root(other));
-        // From the first root to the second.
+        // The number of copies from the first root to the second.
         let way = [0, 1].map(|axis| shift[axis] + second[axis] - first[axis]);
         if one == other {
             self.returns[one].insert(way);

@@ -1,6 +1,6 @@
-//! Clearance and bends, with places named as weavers do by thread and crossing. In a knit,
-//! [`Structure::place`](crate::Structure::place) names a place by thread and stitch, and clearance
-//! names it by thread alone.
+//! Clearance and bends, with the names of their places. In woven cloth a place is named by thread
+//! and crossing, as weavers do. In a knit, [`Structure::place`](crate::Structure::place) names a
+//! place by thread and stitch, but places of the clearance are named by thread alone.
 
 use std::fmt;
 use std::ops::ControlFlow;

@@ -79,8 +79,9 @@ impl Repeat {
     }
 
     /// [`Repeat::placed_beyond`] with other origins and sources for each copy. `origin` and
-    /// `source` give them for an origin or a source of the repeat and the place of the copy, in
-    /// repeats along x and y. `look` is asked after each [`LOOK_POINTS`] or so.
+    /// `source` get an origin or a source of the repeat, and the place of the copy in repeats along
+    /// x and y. They return the origin or the source in the copy. `look` is called after about
+    /// every [`LOOK_POINTS`] control points.
     pub(crate) fn placed_as(
         &self,
         yarns: &Yarns,
@@ -112,7 +113,7 @@ impl Repeat {
                 Ends::Repeats(onward) => Some(onward.map(i64::from)),
             };
             if onward.is_some_and(|onward| self.holds([cell[0] - onward[0], cell[1] - onward[1]])) {
-                // The yarn has begun in an earlier round.
+                // The yarn has begun in another copy, and this copy is a later round of it.
                 continue;
             }
             let next = |cell: &[i64; 2]| onward.map(|onward| [cell[0] + onward[0], cell[1] + onward[1]]);

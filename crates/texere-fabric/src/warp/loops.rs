@@ -75,8 +75,9 @@ impl Loops {
             order.clear();
             let parts = |lap: &PlacedLap| lap.lap.needles().enumerate();
             for (number, placed) in bar.iter().enumerate() {
-                // A yarn that comes round the edge of the repeat comes from the left of all yarns
-                // in the repeat.
+                // A loop beyond the right edge of the repeat stands for a loop of the repeat to the
+                // left, whose guide is further left than all guides of this repeat. It comes first
+                // on its needle. A loop beyond the left edge comes last.
                 let round = |needle: i32| Reverse(needle.div_euclid(size[0] as i32));
                 order.extend(
                     parts(placed).map(|(part, needle)| (round(needle), number, part, place(placed, needle))),

@@ -14,7 +14,7 @@ use super::{Bed, Direction, Step, Stitches};
 pub(super) struct Cell {
     /// Number of the loop that the yarn makes; none for a float.
     pub(super) number: Option<u32>,
-    /// Place of the needle in wales, and the course. Both may go on beyond the repeat.
+    /// Place of the needle, in wales. The place and the course may lie beyond the repeat.
     pub(super) at: f32,
     pub(super) course: i64,
     pub(super) bed: Bed,

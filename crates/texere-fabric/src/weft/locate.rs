@@ -19,7 +19,7 @@ impl Knitted {
         let (wale, course) =
             (place.position[0] / gauge.wale_mm - 0.5, self.feet(yarns, place)? / gauge.course_mm);
         let repeat = stitches.repeat.map(|size| size.map(f64::from));
-        // Coordinate of the nearest copy, along one axis.
+        // Coordinate, along one axis, of the copy of a stitch that lies nearest to `near`.
         let copy = |own: f64, axis: usize, near: f64| match repeat {
             Some(size) => {
                 let copies = f64::from(self.size()[axis]) / size[axis];

@@ -73,8 +73,8 @@ impl Pen {
     }
 
     /// Equally many points for each cell, on the curve through the recorded points. `onward` is the
-    /// way from this round of the yarn to its next one, mm. Points before the first cell and after
-    /// the last one stay unchanged.
+    /// vector from this round of the yarn to the next one, mm. Points before the first cell and
+    /// after the last one stay unchanged.
     ///
     /// **Errors**: [`OutOfMemory`].
     pub(super) fn even(self, onward: Option<DVec3>) -> Result<YarnPoints, OutOfMemory> {

@@ -3,7 +3,7 @@
 /// A yarn of a weft or warp knit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnitYarn {
-    /// Its radius, mm.
+    /// The radius of the yarn, mm.
     pub radius_mm: f32,
     /// Index into the materials.
     pub material: u32,

@@ -32,8 +32,8 @@ pub struct WovenDesign {
 
 impl WovenDesign {
     /// Relieves the jammed threads of `cloth` as `relief` says. `draft` is the shaft draft that
-    /// weaves the cloth, if there is one. The caller makes sure that the draft's drawdown equals
-    /// the cloth's; it is not checked.
+    /// weaves the cloth, if there is one. The draft's drawdown has to equal the cloth's. This is
+    /// not checked.
     ///
     /// **Errors**: the errors of [`Woven::relieve`].
     pub fn new(mut cloth: Woven, draft: Option<Draft>, relief: Relief) -> Result<Self, FabricError> {

@@ -7,8 +7,8 @@ use super::jam::{Gap, ROUNDING, reach};
 use super::{BySet, FLATNESS_MAX, Shape, Thread, Woven};
 use crate::{FabricError, ThreadError, WovenError};
 
-/// What is done about jammed threads: threads that lie so close together that crossing threads
-/// can't pass between them.
+/// What is done about jammed threads. Threads are jammed if they lie so close together that
+/// crossing threads can't pass between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Relief {

@@ -30,9 +30,9 @@ use crate::{Drawdown, FabricError, WovenError};
 ///   right-hand (Z) twill, a negative move a left-hand (S) twill. `U1/D1*U2/D2` strings several
 ///   floats together. The hand may be given in words: `2/2 S`, `twill 2/2 left`.
 /// - **Matt** `U/D(L+R)`: the first L ends are up for U picks, then down for D; the next R ends are
-///   the other way round. `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain weave. A matt
-///   that is written by name has equal floats in both directions: `matt 2` is `2/2(2+2)`, and
-///   `hopsack 3/2` is `3/2(3+2)`.
+///   down for U picks, then up for D. `2/2(2+2)` is the common basket weave, `1/1(1+1)` plain
+///   weave. A matt that is written by name has equal floats in both directions: `matt 2` is
+///   `2/2(2+2)`, and `hopsack 3/2` is `3/2(3+2)`.
 /// - **Satin** `N(M)` has N ends and is warp-faced: (N-1)/1. **Sateen** `N(M)` is weft-faced:
 ///   1/(N-1). Each pick moves the binding point M ends further to the right. M must share no factor
 ///   with N, and must be neither 1 nor N-1. Without M, the smallest such move is used. An irregular

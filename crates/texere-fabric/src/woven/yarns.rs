@@ -54,13 +54,13 @@ impl Woven {
     ///
     /// An end runs along +y from the lower edge of the cloth to its upper edge, and a pick along +x
     /// from the left edge to the right one. The cloth spans \[0, width\] × \[0, height\] (see
-    /// [`Woven::size_mm`]). At a crossing the upper thread is at +z and the lower one at -z. They
-    /// are far enough apart for the heights of their sections, and [`Crimp`](crate::Crimp) says how
-    /// they share this distance. Between crossings threads run as [`Shape`](crate::Shape) says.
-    /// Origins are [`Origin::End`] and [`Origin::Pick`]. The source of a control point is the
-    /// number of the crossing at which it lies or beside which it bends: pick × ends + end, both
-    /// counted from 0. A point half way between two crossings has the number of the first one along
-    /// the yarn. The ends of a yarn have [`NO_CROSSING`].
+    /// [`Woven::size_mm`]). At a crossing the upper thread is at +z and the lower one at -z. The
+    /// two threads are far enough apart for the heights of their sections, and
+    /// [`Crimp`](crate::Crimp) says how they share this distance. Between crossings threads run as
+    /// [`Shape`](crate::Shape) says. Origins are [`Origin::End`] and [`Origin::Pick`]. The source
+    /// of a control point is the number of the crossing at which it lies or beside which it bends:
+    /// pick × ends + end, both counted from 0. A point half way between two crossings has the
+    /// number of the first one along the yarn. The ends of a yarn have [`NO_CROSSING`].
     ///
     /// With a selvedge ([`Woven::set_selvedge`]) consecutive picks that are alike in material,
     /// section and twist are one yarn, whose origin is its first pick. Picks are counted from 1.

@@ -150,8 +150,9 @@ impl Source<'_> {
         tags
     }
 
-    /// For places on `chords`, as shares of them: the same places as shares of the intervals, and
-    /// the greatest distance from there to the exact places, also as a share.
+    /// Turns places on `chords`, given as shares of the chords, into shares of the chords'
+    /// intervals. Also returns how far the exact places may lie from these places, as shares of the
+    /// intervals.
     #[cfg_attr(optimized, inline(always))]
     fn places<S: Simd>(&self, simd: S, chords: &[u32], share: S::Floats) -> (S::Floats, S::Floats) {
         let shares: &[[[f32; 4]; 1]] = bytemuck::cast_slice(&self.fixed.shares);

@@ -8,9 +8,11 @@ pub(super) const CHART_MOVED_MAX: u32 = MOVED_MAX as u32;
 /// The stitch in one cell of a chart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cell {
-    /// The front needle knits: `k`. On one bed, loops on the back needle are first moved to it.
+    /// The front needle knits: `k`. On one bed, loops that hang on the back needle are first moved
+    /// to the front needle.
     Knit,
-    /// The back needle knits: `p`. On one bed, loops on the front needle are first moved to it.
+    /// The back needle knits: `p`. On one bed, loops that hang on the front needle are first moved
+    /// to the back needle.
     Purl,
     /// Front and back needle both knit: `b`, on two beds. The back needles then stand half a needle
     /// beside the front needles.

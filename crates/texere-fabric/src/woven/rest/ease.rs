@@ -19,8 +19,8 @@ const LAST: usize = CHANGE_POINTS + 1;
 
 /// Moves the stops between two crossings up or down where the spline through them would bend more
 /// tightly than the thread is thick. `turns` says whether the thread also changes sides before the
-/// first crossing, and after the second one. If it does, the path beyond that crossing is taken as
-/// the mirror image of the path on this side.
+/// first crossing, and after the second one. If so, the path beyond that crossing is taken as the
+/// mirror image of the path on this side.
 pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
     let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
     for _ in 0..EASINGS {
@@ -39,7 +39,8 @@ pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
         let mut moves = [0.0; LAST + 1];
         for stop in 1..LAST {
             let tangent = (at[stop + 1] - at[stop - 1]) / 2.0;
-            // From the spline's second derivatives on both sides of the stop.
+            // The cross product of the spline's first and second derivatives, on both sides of the
+            // stop.
             let turning = [stop - 1, stop + 1]
                 .map(|beside| tangent.perp_dot(2.0 * second[stop] - second[beside]).abs());
             if is_tight(stop, turning[0].max(turning[1]), tangent.length()) {

@@ -1,6 +1,6 @@
 //! Control points of a thread's path at rest.
 
-/// Control points between two crossings where a thread changes sides.
+/// Number of control points between two crossings if a thread changes sides between them.
 ///
 /// Three and five were tried on cloths as mills weave them. With three the cloths come to 0.945 to
 /// 0.99 of touching, with five to 0.955 to 0.994. When threads are then made thinner

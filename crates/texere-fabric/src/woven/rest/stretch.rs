@@ -33,8 +33,8 @@ const GIVES: u32 = 3;
 pub struct Stretch {
     /// The set along which the cloth is pulled.
     pub along: Set,
-    /// Factor of the cloth's length along that set, from 0.5 to 2. With less than 1 the cloth draws
-    /// in.
+    /// Factor of the cloth's length along that set, from 0.5 to 2. With less than 1 the cloth
+    /// becomes shorter.
     pub by: f64,
 }
 

@@ -13,6 +13,9 @@ use crate::naive::{self, Id, Known};
 
 const CARRIERS: u32 = 3;
 
+/// Rounds that the naive machine runs of a repeat. The loops of the middle round are compared.
+const ROUNDS: i32 = 24;
+
 fn needles(range: std::ops::Range<i32>) -> impl Strategy<Value = Needle> + Clone {
     (any::<bool>(), prop::bool::weighted(0.1), range).prop_map(|(front, slider, number)| Needle {
         bed: if front { Bed::Front } else { Bed::Back },
@@ -157,6 +160,26 @@ fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Repeats on each side of the middle one with which the naive machine's edges do not reach the
+/// loops that are compared. In each round a loop travels as far as all transfers of one direction
+/// together. What the edge does to the cloth has all rounds to travel, and a loop of the middle
+/// round has half of them to travel towards it.
+fn sides(program: &Program) -> i32 {
+    let travel = |way: i32| {
+        let of = |operation: &Operation| match operation.instruction {
+            Instruction::Transfer(from, to) | Instruction::Split(_, from, to) => {
+                (way * (to.number - from.number)).max(0)
+            }
+            _ => 0,
+        };
+        program.operations.iter().map(of).sum::<i32>()
+    };
+    let (left, right) = (travel(-1), travel(1));
+    let needles = ROUNDS * left.max(right) + ROUNDS / 2 * left.min(right);
+    // The needles that a repeat names lie up to two repeats from it.
+    needles / program.repeat.map_or(1, |width| width as i32) + 3
+}
+
 /// Compares stitches with the loops that the naive machine has in `round` and repeat 0.
 fn compare(
     program: &Program,
@@ -221,7 +244,20 @@ proptest! {
             return Ok(());
         }
         lawful(&program, &stitches)?;
-        // With so many rounds and repeats, the ones in the middle do not depend on the edges.
-        compare(&program, &stitches, &naive::run(&program, 24, 16), 12)?;
+        compare(&program, &stitches, &naive::run(&program, ROUNDS, sides(&program)), ROUNDS / 2)?;
     }
+}
+
+/// The loops of this repeat go two needles to the left in each round, and all of them fall. Only
+/// where the cloth ends is there a needle that nothing clears, and what is left there travels in.
+#[test]
+fn loops_that_travel_come_from_within_the_cloth() {
+    let list = [
+        Instruction::Split(Direction::Left, Needle::back(0), Needle::front(-1)),
+        Instruction::Drop(Needle::back(-1)),
+        Instruction::Transfer(Needle::front(0), Needle::back(-1)),
+    ];
+    let program = program(list.map(|instruction| (instruction, 1)).to_vec(), Some(1));
+    let stitches = Machine::default().knit(&program).expect("a knit").stitches;
+    compare(&program, &stitches, &naive::run(&program, ROUNDS, sides(&program)), ROUNDS / 2).expect("loops");
 }

@@ -139,8 +139,8 @@ fn eight_passes(
     settler.upload(begin)?;
     let passes: Vec<CrossingsPass> = (first..first + 8).map(CrossingsPass::of).collect();
     let mut seen = Vec::new();
-    let mut note = |_: &CrossingsPass, found: CrossingsSeen| {
-        seen.push(found);
+    let mut note = |_: &CrossingsPass, found: Option<CrossingsSeen>| {
+        seen.extend(found);
         ControlFlow::Continue(())
     };
     for passes in [&passes[..3], &passes[3..4], &passes[4..]] {
@@ -335,12 +335,14 @@ fn passes_end_where_they_should() {
         for device in near_devices() {
             let mut settler = device.crossings_settler(Arc::clone(&plan)).expect("a settler");
             let mut watched = 0;
-            let rest = settle(&plan, settler.as_mut(), |_, _| {
-                watched += 1;
+            let rest = settle(&plan, settler.as_mut(), |_, seen| {
+                watched += u32::from(seen.is_some());
                 ControlFlow::Continue(())
             });
             assert_eq!((watched, rest.expect("rest").passes), (passes, passes), "{}", device.info().name);
-            let broken_off = settle(&plan, settler.as_mut(), |_, _| ControlFlow::Break(()));
+            let broken_off = settle(&plan, settler.as_mut(), |_, seen| {
+                if seen.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
             assert_eq!(broken_off.expect("rest").passes, 1, "{}", device.info().name);
         }
     }

@@ -243,6 +243,7 @@ fn who_watches_may_break_off() {
         let mut settler = cpu().settler(Arc::clone(&plan)).expect("a settler");
         let (mut calls, mut best) = (0, SettlingSeen::NOTHING);
         let rest = settle(&plan, settler.as_mut(), |pass, seen| {
+            let Some(seen) = seen else { return ControlFlow::Continue(()) };
             calls += 1;
             if calls == 1 || pass.ease == 0.0 && seen.is_better_than(&best) {
                 best = *seen;

@@ -78,7 +78,7 @@ fn rest(name: &'static str, text: &str, device: *mut texere_device) -> Result<Ca
 
 fn calls() -> Result<Vec<Call>, Box<dyn Error>> {
     let text = plain_weave(815, 750);
-    let settled = plain_weave(300, 300).replace("settle = false", "settle = true");
+    let settled = text.replace("settle = false", "settle = true");
     let cpu = "cpu";
     let file = std::env::temp_dir().join(format!("c-cancel-{}.ply", std::process::id()));
     let path: &'static str = file.to_str().ok_or("a path that is not UTF-8")?.to_owned().leak();
@@ -96,7 +96,7 @@ fn calls() -> Result<Vec<Call>, Box<dyn Error>> {
         let mut calls: Vec<Call> = vec![
             rest("rest, chart of 60 x 60", &knit(60, 1), device)?,
             rest("rest, 100 x 100 copies", &knit(4, 100), device)?,
-            rest("rest, weave of 300 x 300", &settled, device)?,
+            rest("rest, weave of 815 x 750", &settled, device)?,
             rest("placed, weave of 815 x 750", &text, device)?,
             (
                 "mesh",

@@ -9,7 +9,7 @@
 //! | a plan's run on a device, chunk by chunk | [`Run`] |
 //! | the driver, and its order of calls | [`Session`], [`Slot`], [`Schedule`], [`StageTimings`], [`Traffic`] |
 //! | the work of one device | [`Engine`], [`ScanChunks`] |
-//! | a callback that says whether a scan goes on | [`ScanWatch`] |
+//! | a callback that says whether to go on | [`WorkWatch`] |
 //! | callbacks and slices that receive results | [`MeshMut`], [`MeshSink`], [`PackedSink`], [`AttributeSink`], [`RingSink`] |
 //! | a mesh that stays on the device | [`LiveMesh`], [`Edits`], [`Draw`] |
 //! | allocations that may fail | [`zeroed`], [`filled`], [`room`], [`room_for`] |
@@ -19,8 +19,8 @@
 
 pub use crate::device::Schedule;
 pub use crate::engine::{
-    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, ScanWatch, Slot,
-    StageTimings, take_over_host,
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+    WorkWatch, take_over_host,
 };
 pub use crate::layout::Edits;
 pub use crate::live::LiveMesh;

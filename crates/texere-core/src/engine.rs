@@ -277,17 +277,17 @@ pub struct ScanChunk {
 pub struct ScanChunks<'a> {
     chunks: &'a mut dyn Iterator<Item = ScanChunk>,
     yarns: Range<usize>,
-    watch: ScanWatch<'a>,
+    watch: WorkWatch<'a>,
 }
 
 /// A callback that is asked, now and then, whether to go on.
-pub type ScanWatch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
+pub type WorkWatch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 impl<'a> ScanChunks<'a> {
     pub(crate) fn new(
         chunks: &'a mut dyn Iterator<Item = ScanChunk>,
         yarns: Range<usize>,
-        watch: ScanWatch<'a>,
+        watch: WorkWatch<'a>,
     ) -> Self {
         Self { chunks, yarns, watch }
     }

@@ -7,7 +7,7 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
-use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, ScanWatch, Slot, StageTimings};
+use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings, WorkWatch};
 use crate::plan::BLOCK_RINGS;
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
@@ -181,7 +181,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     /// **Errors**: the errors of [`LiveMesh::update`].
     pub fn update_watched(
         &mut self,
-        watch: ScanWatch<'_>,
+        watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), Vec<Change>>, SessionError> {
         let sides = self.plan.settings().sides as usize;
         self.remake(WATCHED_VERTICES.div_ceil(BLOCK_RINGS as usize * sides), watch)
@@ -191,7 +191,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     fn remake(
         &mut self,
         most: usize,
-        watch: ScanWatch<'_>,
+        watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), Vec<Change>>, SessionError> {
         if self.plan.needs_scan() && self.go_through(E::scan, watch)?.is_break() {
             return Ok(ControlFlow::Break(()));
@@ -319,7 +319,7 @@ impl<E: Engine + ?Sized> LiveMesh<E> {
     fn go_through(
         &mut self,
         scan: impl Fn(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
-        watch: ScanWatch<'_>,
+        watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<()>, SessionError> {
         let stale: Vec<_> = self.stale.keys().copied().collect();
         for yarns in runs(&stale) {

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use crate::backend::{Chunk, MeshMut, Plan, TablesId};
 use crate::definitions::Ring;
 use crate::engine::{
-    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, ScanWatch, Slot,
-    StageTimings,
+    AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
+    WorkWatch,
 };
 use crate::settling::{Settler, SettlingYarn};
 use crate::traffic::Traffic;
@@ -181,7 +181,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// `watch` is called now and then.
     ///
     /// **Errors**: the errors of [`Session::scan`].
-    pub fn scan_watched(&mut self, watch: ScanWatch<'_>) -> Result<ControlFlow<()>, SessionError> {
+    pub fn scan_watched(&mut self, watch: WorkWatch<'_>) -> Result<ControlFlow<()>, SessionError> {
         if self.plan.needs_scan() && !self.scanned && self.go_through(E::scan, watch)?.is_break() {
             return Ok(ControlFlow::Break(()));
         }
@@ -202,7 +202,7 @@ impl<E: Engine + ?Sized> Session<E> {
     /// `watch` is called now and then.
     ///
     /// **Errors**: the errors of [`Session::measure`].
-    pub fn measure_watched(&mut self, watch: ScanWatch<'_>) -> Result<ControlFlow<()>, SessionError> {
+    pub fn measure_watched(&mut self, watch: WorkWatch<'_>) -> Result<ControlFlow<()>, SessionError> {
         if !self.measured && self.go_through(E::measure, watch)?.is_break() {
             return Ok(ControlFlow::Break(()));
         }
@@ -215,7 +215,7 @@ impl<E: Engine + ?Sized> Session<E> {
     fn go_through(
         &mut self,
         scan: impl FnOnce(&mut E, ScanChunks<'_>) -> Result<(), BackendError>,
-        watch: ScanWatch<'_>,
+        watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<()>, SessionError> {
         let mut answer = ControlFlow::Continue(());
         let mut watch = || {

@@ -157,11 +157,11 @@ impl CrossingsSeenRow {
 pub fn crossings_batches(
     passes: &[CrossingsPass],
     mut run: impl FnMut(&[CrossingsPass]) -> Result<Vec<CrossingsSeen>, BackendError>,
-    watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(&CrossingsPass, Option<CrossingsSeen>) -> ControlFlow<()>,
 ) -> Result<ControlFlow<()>, BackendError> {
     for passes in passes.chunks(CROSSINGS_PASSES as usize) {
         for (pass, seen) in passes.iter().zip(run(passes)?) {
-            if watch(pass, seen).is_break() {
+            if watch(pass, Some(seen)).is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }

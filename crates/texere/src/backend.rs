@@ -31,8 +31,8 @@
 pub use texere_core::backend::{
     AttributeSink, BLOCK_RINGS, Block, Chunk, ChunkDraw, Chunks, Draw, Edits, Engine, LiveMesh, MeshMut,
     MeshSink, NullBackend, PackedSink, PaddedPoints, Part, Plan, RingSink, Run, ScanChunk, ScanChunks,
-    ScanWatch, Schedule, Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory,
-    WINDOW_POINTS, filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
+    Schedule, Session, SessionError, Slot, StageTimings, TablesId, Traffic, Trajectory, WINDOW_POINTS,
+    WorkWatch, filled, renew_virtual_ends, room, room_for, take_over_host, zeroed,
 };
 pub use texere_core::{OutOfMemory, crossings, definitions, settling};
 pub use texere_cpu::prefer_huge;

@@ -66,7 +66,9 @@ pub fn settle_start(
     let plan = settling_plan(start);
     let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
     let rest = settle(&plan, settler.as_mut(), |pass, seen| {
-        watch(pass, seen);
+        if let Some(seen) = seen {
+            watch(pass, seen);
+        }
         ControlFlow::Continue(())
     });
     let rest = rest.expect("a settling");

@@ -24,9 +24,10 @@ pub struct CrossingsRest {
     pub seen: CrossingsSeen,
 }
 
-/// Lets crossings come to rest on a device, and leaves them there. `watch` is called after every
-/// pass. If it breaks off, the run ends after that pass, or after the passes that were sent to the
-/// device together with it, ten at most.
+/// Lets crossings come to rest on a device, and leaves them there. `watch` is called with the
+/// measures of every pass after the pass, and without measures while a pass is being made. If it
+/// breaks off, the run ends: on a processor at once, with some crossings moved, and on any other
+/// device after the passes that were sent to it together, ten at most.
 ///
 /// In the first fifty passes, threads grow from four tenths of their area, and the penalties that
 /// keep them apart harden. More passes follow until the cloth is at rest, at most as many as the
@@ -36,7 +37,7 @@ pub struct CrossingsRest {
 pub fn settle(
     plan: &CrossingsPlan,
     settler: &mut dyn CrossingsSettler,
-    mut watch: impl FnMut(&CrossingsPass, &CrossingsSeen) -> ControlFlow<()>,
+    mut watch: impl FnMut(&CrossingsPass, Option<&CrossingsSeen>) -> ControlFlow<()>,
 ) -> Result<CrossingsRest, BackendError> {
     settler.upload(&plan.start()?)?;
     let mut rest = CrossingsRest { at_rest: false, passes: 0, seen: CrossingsSeen::NOTHING };
@@ -47,11 +48,13 @@ pub fn settle(
         let last = plan.passes().min(rest.passes + STILL_PASSES - still);
         let passes: Vec<CrossingsPass> = (rest.passes..last).map(CrossingsPass::of).collect();
         let broken_off = settler.passes(&passes, &mut |pass, seen| {
-            rest.seen = seen;
-            still = if rest.passes > GROWING && seen.step < STILL { still + 1 } else { 0 };
-            rest.passes += 1;
-            rest.at_rest = still == STILL_PASSES;
-            watch(pass, &seen)
+            if let Some(seen) = seen {
+                rest.seen = seen;
+                still = if rest.passes > GROWING && seen.step < STILL { still + 1 } else { 0 };
+                rest.passes += 1;
+                rest.at_rest = still == STILL_PASSES;
+            }
+            watch(pass, seen.as_ref())
         })?;
         if broken_off.is_break() {
             break;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::{CrossingState, CrossingsPass, CrossingsPlan};
 use crate::BackendError;
+use crate::backend::WorkWatch;
 
 /// The measures of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,16 +46,34 @@ pub trait CrossingsSettler: Any + Debug + Send {
     /// the pass, and writes its own state for the next pass.
     fn pass(&mut self, pass: &CrossingsPass) -> Result<CrossingsSeen, BackendError>;
 
-    /// Makes several passes, and calls `watch` with the measures of each. A device that the host
-    /// waits for may make all passes before the first call of `watch`. Any other device makes no
-    /// pass after `watch` breaks off.
+    /// Does what [`pass`](Self::pass) does, and asks `watch` a few times in each 50 ms whether to
+    /// go on. After `Break` some crossings have moved and others have not.
+    ///
+    /// The provided method does not ask.
+    fn pass_watched(
+        &mut self,
+        pass: &CrossingsPass,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), CrossingsSeen>, BackendError> {
+        let _ = watch;
+        self.pass(pass).map(ControlFlow::Continue)
+    }
+
+    /// Makes several passes. `watch` is called with the measures of every pass after the pass, and
+    /// without measures while a pass is being made. A device that the host waits for may make all
+    /// passes before the first call of `watch`. Any other device makes no pass after `watch` breaks
+    /// off.
     fn passes(
         &mut self,
         passes: &[CrossingsPass],
-        watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(&CrossingsPass, Option<CrossingsSeen>) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, BackendError> {
         for pass in passes {
-            if watch(pass, self.pass(pass)?).is_break() {
+            let goes_on = match self.pass_watched(pass, &mut || watch(pass, None))? {
+                ControlFlow::Continue(seen) => watch(pass, Some(seen)),
+                ControlFlow::Break(()) => ControlFlow::Break(()),
+            };
+            if goes_on.is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::error::PipelineError;
-use crate::backend::{Chunk, MeshMut, Plan, ScanWatch, Session, SessionError};
+use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError, WorkWatch};
 use crate::definitions::Ring;
 use crate::settling::Settler;
 use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology};
@@ -284,7 +284,7 @@ impl<'a> Run<'a> {
     /// stop.
     fn watched(
         &mut self,
-        work: impl FnOnce(&mut Session, ScanWatch<'_>) -> Result<ControlFlow<()>, SessionError>,
+        work: impl FnOnce(&mut Session, WorkWatch<'_>) -> Result<ControlFlow<()>, SessionError>,
     ) -> Result<(), PipelineError> {
         let now = Progress { rings: self.done, total: self.plan.counts().rings };
         match work(&mut self.session, &mut || (self.progress)(now))? {

@@ -67,8 +67,9 @@ pub struct Rest {
 }
 
 /// Settles yarns on a device, and leaves the best places there. The best are those with the best
-/// clearance, then the best bends, then the best lengths. `watch` is called after every pass. If it
-/// breaks off, the best places so far are left.
+/// clearance, then the best bends, then the best lengths. If `watch` breaks off, the best places so
+/// far are left. `watch` is called with the measures of every pass after the pass, and without
+/// measures while a pass is being made.
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
 /// weighted form are made until the yarns are at rest, the form stalls, or the plan allows no more.
@@ -79,7 +80,7 @@ pub struct Rest {
 pub fn settle(
     plan: &SettlingPlan,
     settler: &mut dyn Settler,
-    watch: impl FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>,
+    watch: impl FnMut(&Pass, Option<&SettlingSeen>) -> ControlFlow<()>,
 ) -> Result<Rest, BackendError> {
     Run {
         plan,
@@ -98,7 +99,7 @@ struct Run<'a, W> {
     plan: &'a SettlingPlan,
     settler: &'a mut dyn Settler,
     watch: W,
-    /// Whether `watch` has broken off.
+    /// Whether `watch` has broken off after a pass.
     stopped: bool,
     /// The growth at which neighbours were listed last.
     listed: f32,
@@ -109,13 +110,14 @@ struct Run<'a, W> {
     rest: Rest,
 }
 
-impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
+impl<W: FnMut(&Pass, Option<&SettlingSeen>) -> ControlFlow<()>> Run<'_, W> {
     fn whole(mut self) -> Result<Rest, BackendError> {
         let places: Vec<Place> = own_places(self.plan).map(|(place, _)| *place).collect();
         self.settler.upload(&places)?;
         // The first pass measures the yarns as they are. These places are the result if no pass
         // finds better ones.
-        let start = self.pass(&Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.0 })?;
+        let first = Pass { form: Form::Weighted, growth: 1.0, ease: 0.0, momentum: 0.0 };
+        let ControlFlow::Continue(start) = self.pass(&first)? else { return self.ended() };
         self.settler.keep()?;
         (self.rest.start, self.rest.end) = (start, start);
         self.rest.at_rest = self.is_rest(&start);
@@ -127,7 +129,7 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
         let passes = self.plan.passes;
         for number in 0..GROWING + passes {
             let pass = weighted(number, passes);
-            let seen = self.pass(&pass)?;
+            let ControlFlow::Continue(seen) = self.pass(&pass)? else { return self.ended() };
             if pass.ease == 0.0 && self.weigh(&seen)? || self.stopped {
                 return self.ended();
             }
@@ -136,7 +138,8 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
             }
         }
         for _ in 0..passes {
-            let seen = self.pass(&Pass { form: Form::Block, growth: 1.0, ease: 0.0, momentum: 0.8 })?;
+            let pass = Pass { form: Form::Block, growth: 1.0, ease: 0.0, momentum: 0.8 };
+            let ControlFlow::Continue(seen) = self.pass(&pass)? else { break };
             self.rest.block_passes += 1;
             if self.weigh(&seen)? || self.stopped {
                 break;
@@ -146,19 +149,27 @@ impl<W: FnMut(&Pass, &SettlingSeen) -> ControlFlow<()>> Run<'_, W> {
     }
 
     /// Makes a pass. If neighbours may be missing from the lists, they are listed again first.
-    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
+    /// `Break` if `watch` has broken off before the pass was whole.
+    fn pass(&mut self, pass: &Pass) -> Result<ControlFlow<(), SettlingSeen>, BackendError> {
+        let mut within = || (self.watch)(pass, None);
         let spans = self.plan.spans();
         let grown = 2.0 * MARGIN * spans.thickest * (pass.growth - self.listed).max(0.0);
         if 2.0 * OVERSHOOT * self.moved + grown > SKIN * spans.diameter {
-            self.rest.neighbours = self.settler.list(pass.growth)?;
+            let ControlFlow::Continue(neighbours) = self.settler.list_watched(pass.growth, &mut within)?
+            else {
+                return Ok(ControlFlow::Break(()));
+            };
+            self.rest.neighbours = neighbours;
             (self.listed, self.moved) = (pass.growth, 0.0);
             self.rest.lists += 1;
         }
-        let seen = self.settler.pass(pass)?;
+        let ControlFlow::Continue(seen) = self.settler.pass_watched(pass, &mut within)? else {
+            return Ok(ControlFlow::Break(()));
+        };
         self.moved += seen.step;
         self.rest.passes += 1;
-        self.stopped = (self.watch)(pass, &seen).is_break();
-        Ok(seen)
+        self.stopped = (self.watch)(pass, Some(&seen)).is_break();
+        Ok(ControlFlow::Continue(seen))
     }
 
     /// Keeps the places if they are the best so far, and returns whether they are at rest.

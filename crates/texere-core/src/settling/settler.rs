@@ -2,13 +2,14 @@
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::IVec3;
 
 use super::{Pass, Place, SettlingPlan};
 use crate::BackendError;
-use crate::backend::zeroed;
+use crate::backend::{WorkWatch, zeroed};
 
 /// The measures of a pass. All but `step` are taken before the points move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +48,33 @@ pub trait Settler: Any + Debug + Send {
 
     /// Moves every control point once, and returns the measures of the pass.
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError>;
+
+    /// Does what [`list`](Self::list) does, and asks `watch` a few times in each 50 ms whether to
+    /// go on. After `Break` the lists are incomplete.
+    ///
+    /// The provided method does not ask.
+    fn list_watched(
+        &mut self,
+        growth: f32,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), u64>, BackendError> {
+        let _ = watch;
+        self.list(growth).map(ControlFlow::Continue)
+    }
+
+    /// Does what [`pass`](Self::pass) does, and asks `watch` a few times in each 50 ms whether to
+    /// go on. After `Break` no point has moved. [`keep`](Self::keep) may not be called before the
+    /// next whole pass.
+    ///
+    /// The provided method does not ask.
+    fn pass_watched(
+        &mut self,
+        pass: &Pass,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), SettlingSeen>, BackendError> {
+        let _ = watch;
+        self.pass(pass).map(ControlFlow::Continue)
+    }
 
     /// Keeps the places that the last pass has measured, before it moved them. They replace any
     /// places kept before.

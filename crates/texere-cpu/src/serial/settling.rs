@@ -1,15 +1,21 @@
 //! The reference settler: one interval after the other on one thread.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{IVec3, Vec3};
 use texere_core::BackendError;
+use texere_core::backend::WorkWatch;
 use texere_core::settling::{
     Chord, Gathered, Interval, Length, Listed, Pass, Place, Pull, Settler, SettlingPlan, SettlingSeen, freed,
     moves, tag,
 };
 
+use crate::asked::{self, in_parts};
 use crate::cells::{Extent, Grid, owners};
+
+/// The number of intervals, chords or control points between two questions to the caller.
+const PART: usize = 256;
 
 /// The reference settler.
 #[derive(Debug)]
@@ -58,21 +64,25 @@ impl SerialSettler {
     }
 
     /// Works out all intervals and their chords from the places.
-    fn renew(&mut self) {
+    fn renew(&mut self, watch: WorkWatch<'_>) -> ControlFlow<()> {
         let plan = &self.plan;
         self.intervals.clear();
         self.chords.clear();
-        for place in 0..self.places.len() {
-            if plan.tags()[place] & tag::INTERVAL == 0 {
-                // No interval begins here. The place may be the last of all, with none behind it.
-                self.intervals.push(Interval::new(&[self.places[place]; 4], plan.scale(), plan.s()));
-                continue;
+        in_parts(self.places.len(), PART, watch, |part| {
+            for place in part {
+                if plan.tags()[place] & tag::INTERVAL == 0 {
+                    // No interval begins here. The place may be the last of all, with none behind
+                    // it.
+                    self.intervals.push(Interval::new(&[self.places[place]; 4], plan.scale(), plan.s()));
+                    continue;
+                }
+                let interval = plan.interval(&self.places, place);
+                let count = plan.chords()[place + 1] - plan.chords()[place];
+                let chords = (0..count).map(|piece| Chord::new(&interval, piece, count, plan.scale()));
+                self.chords.extend(chords);
+                self.intervals.push(interval);
             }
-            let interval = plan.interval(&self.places, place);
-            let count = plan.chords()[place + 1] - plan.chords()[place];
-            self.chords.extend((0..count).map(|piece| Chord::new(&interval, piece, count, plan.scale())));
-            self.intervals.push(interval);
-        }
+        })
     }
 
     fn listed(&self, chord: u32) -> Listed<'_> {
@@ -94,58 +104,13 @@ impl SerialSettler {
         pull.own(plan, pass, (plan.tags()[place], chords), &self.intervals[place], self.lengths[place]);
         pull
     }
-}
 
-impl Settler for SerialSettler {
-    fn plan(&self) -> &Arc<SettlingPlan> {
-        &self.plan
-    }
-
-    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
-        self.plan.pad(places.iter().copied(), &mut self.places);
-        self.steps.fill(Vec3::ZERO);
-        self.lengths.copy_from_slice(self.plan.lengths());
-        Ok(())
-    }
-
-    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
-        self.renew();
-        let plan = &*self.plan;
-        let scale = plan.scale();
-        let middles: Vec<IVec3> = self.chords.iter().map(|chord| chord.middle(scale)).collect();
-        let lengths = self.chords.iter().map(|chord| chord.span.length_squared().sqrt());
-        let known = middles.iter().zip(lengths);
-        let extent = known.fold(Extent::NOTHING, |extent, (middle, length)| extent.with(*middle, length));
-        let grid = Grid::new(plan, growth, &extent);
-        // The cell and the number of each chord, sorted by cells.
-        let mut sorted: Vec<(u32, u32)> = middles.iter().map(|middle| grid.cell(*middle)).zip(0..).collect();
-        sorted.sort_unstable();
-        let (mut starts, mut neighbours) = (vec![0], Vec::new());
-        let mut beside = Vec::new();
-        for (chord, middle) in (0_u32..).zip(&middles) {
-            beside.clear();
-            for cells in grid.beside(grid.cell(*middle)) {
-                let [start, end] =
-                    [cells.start, cells.end].map(|bound| sorted.partition_point(|(cell, _)| *cell < bound));
-                beside.extend(sorted[start..end].iter().map(|(_, other)| *other));
-            }
-            beside.sort_unstable();
-            let near = |other: &u32| {
-                *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
-            };
-            neighbours.extend(beside.iter().copied().filter(near));
-            plan.allow_neighbours(neighbours.len() as u64)?;
-            starts.push(neighbours.len() as u32);
-        }
-        (self.starts, self.neighbours) = (starts, neighbours);
-        Ok(self.neighbours.len() as u64)
-    }
-
-    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
-        self.renew();
+    /// Moves every control point once, unless `watch` breaks off.
+    fn move_points(&mut self, pass: &Pass, watch: WorkWatch<'_>) -> ControlFlow<(), SettlingSeen> {
+        self.renew(watch)?;
         let mut seen = SettlingSeen::NOTHING;
-        for place in 0..self.places.len() {
-            if self.plan.tags()[place] & tag::INTERVAL != 0 {
+        in_parts(self.places.len(), PART, watch, |part| {
+            for place in part.filter(|place| self.plan.tags()[*place] & tag::INTERVAL != 0) {
                 let pull = self.pull(pass, place);
                 let length = self.lengths[place];
                 let off = (pull.arc - length).abs() / length;
@@ -153,11 +118,14 @@ impl Settler for SerialSettler {
                 seen = seen.and(SettlingSeen { step: 0.0, clearance, radius, length: off });
                 self.pulls[place] = pull;
             }
-        }
+        })?;
         let plan = Arc::clone(&self.plan);
         let mut next = self.places.clone();
         for strand in plan.strands() {
             for point in 0..i64::from(strand.points) {
+                if point as usize % PART == 0 {
+                    watch()?;
+                }
                 let place = strand.first as usize + point as usize;
                 let pull = |interval: i64| strand.interval(interval).map(|place| &self.pulls[place]);
                 if let Length::Free { tension } = plan.length()
@@ -180,7 +148,79 @@ impl Settler for SerialSettler {
             plan.renew_ends(strand, &mut next);
         }
         self.seen = std::mem::replace(&mut self.places, next);
-        Ok(seen)
+        ControlFlow::Continue(seen)
+    }
+}
+
+impl Settler for SerialSettler {
+    fn plan(&self) -> &Arc<SettlingPlan> {
+        &self.plan
+    }
+
+    fn upload(&mut self, places: &[Place]) -> Result<(), BackendError> {
+        self.plan.pad(places.iter().copied(), &mut self.places);
+        self.steps.fill(Vec3::ZERO);
+        self.lengths.copy_from_slice(self.plan.lengths());
+        Ok(())
+    }
+
+    fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
+        Ok(self.list_watched(growth, &mut asked::go_on)?.continue_value().unwrap_or(0))
+    }
+
+    fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
+        let seen = self.move_points(pass, &mut asked::go_on).continue_value();
+        Ok(seen.unwrap_or(SettlingSeen::NOTHING))
+    }
+
+    fn list_watched(
+        &mut self,
+        growth: f32,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), u64>, BackendError> {
+        if self.renew(watch).is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        let plan = &*self.plan;
+        let scale = plan.scale();
+        let middles: Vec<IVec3> = self.chords.iter().map(|chord| chord.middle(scale)).collect();
+        let lengths = self.chords.iter().map(|chord| chord.span.length_squared().sqrt());
+        let known = middles.iter().zip(lengths);
+        let extent = known.fold(Extent::NOTHING, |extent, (middle, length)| extent.with(*middle, length));
+        let grid = Grid::new(plan, growth, &extent);
+        // The cell and the number of each chord, sorted by cells.
+        let mut sorted: Vec<(u32, u32)> = middles.iter().map(|middle| grid.cell(*middle)).zip(0..).collect();
+        sorted.sort_unstable();
+        let (mut starts, mut neighbours) = (vec![0], Vec::new());
+        let mut beside = Vec::new();
+        for (chord, middle) in (0_u32..).zip(&middles) {
+            if chord as usize % PART == 0 && watch().is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+            beside.clear();
+            for cells in grid.beside(grid.cell(*middle)) {
+                let [start, end] =
+                    [cells.start, cells.end].map(|bound| sorted.partition_point(|(cell, _)| *cell < bound));
+                beside.extend(sorted[start..end].iter().map(|(_, other)| *other));
+            }
+            beside.sort_unstable();
+            let near = |other: &u32| {
+                *other != chord && plan.are_neighbours(self.listed(chord), self.listed(*other), growth)
+            };
+            neighbours.extend(beside.iter().copied().filter(near));
+            plan.allow_neighbours(neighbours.len() as u64)?;
+            starts.push(neighbours.len() as u32);
+        }
+        (self.starts, self.neighbours) = (starts, neighbours);
+        Ok(ControlFlow::Continue(self.neighbours.len() as u64))
+    }
+
+    fn pass_watched(
+        &mut self,
+        pass: &Pass,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), SettlingSeen>, BackendError> {
+        Ok(self.move_points(pass, watch))
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {

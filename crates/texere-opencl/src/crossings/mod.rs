@@ -75,7 +75,7 @@ impl CrossingsSettler for OpenClCrossings {
     fn passes(
         &mut self,
         passes: &[CrossingsPass],
-        watch: &mut dyn FnMut(&CrossingsPass, CrossingsSeen) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(&CrossingsPass, Option<CrossingsSeen>) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, BackendError> {
         crossings_batches(passes, |passes| self.run(passes), watch)
     }

@@ -4,15 +4,18 @@
 //! side in memory. The distance of their middles excludes most pairs. All other pairs are tested as
 //! in the core.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::IVec3;
 use rayon::prelude::*;
 use texere_core::BackendError;
+use texere_core::backend::WorkWatch;
 use texere_core::settling::{MARGIN, SKIN, SettlingPlan};
 
 use super::chords::{Chords, Images, Nearest};
 use super::tables::{ChordRow, Fixed};
+use crate::asked::{for_all_threads, in_parts};
 use crate::cells::{Extent, Grid};
 use crate::parallel::instruction_set::InstructionSet;
 use crate::parallel::simd::{
@@ -63,8 +66,12 @@ pub(super) struct Basis<'a> {
 }
 
 impl Lists {
-    /// Lists all neighbours anew, and returns their number.
-    pub(super) fn fill(&mut self, basis: Basis<'_>) -> Result<u64, BackendError> {
+    /// Lists all neighbours anew, and returns their number. `Break` if `watch` breaks off.
+    pub(super) fn fill(
+        &mut self,
+        basis: Basis<'_>,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), u64>, BackendError> {
         let (set, count) = (basis.set, basis.chords.len());
         self.middles.resize(count, [0.0; 4]);
         let tasks = self.middles.par_chunks_mut(TASK).zip(basis.chords.par_chunks(TASK));
@@ -80,29 +87,32 @@ impl Lists {
         self.tasks.resize_with(count.div_ceil(TASK), Task::default);
         let Self { starts, middles, sorted, columns, cells, tasks, .. } = self;
         let sorted = Sorted { grid: &grid, middles, sorted, columns, cells };
-        let all = starts[1..].par_chunks_mut(TASK).zip(tasks).enumerate();
         let found = AtomicU64::new(0);
-        let listed = all.map(|(task, (ends, room))| {
-            let mut listed = Ok(());
-            set.run(ListJob {
-                basis,
-                sorted,
-                first: task * TASK,
-                ends,
-                room,
-                found: &found,
-                listed: &mut listed,
+        let mut listed: Result<(), BackendError> = Ok(());
+        let asked = in_parts(count, for_all_threads(TASK), watch, |part| {
+            let rooms = &mut tasks[part.start / TASK..part.end.div_ceil(TASK)];
+            let first = (part.start..).step_by(TASK);
+            let all: Vec<_> = first.zip(starts[1..][part].chunks_mut(TASK).zip(rooms)).collect();
+            let own = all.into_par_iter().map(|(first, (ends, room))| {
+                let mut listed = Ok(());
+                let found = &found;
+                set.run(ListJob { basis, sorted, first, ends, room, found, listed: &mut listed });
+                listed
             });
-            listed
+            if listed.is_ok() {
+                listed = own.collect();
+            }
         });
-        let listed: Result<(), BackendError> = listed.collect();
         if listed.is_err() {
             // The lists made so far are freed, because they fill all the memory that lists may
             // have.
             self.tasks.clear();
         }
         listed?;
-        self.gather()
+        if asked.is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        self.gather().map(ControlFlow::Continue)
     }
 
     /// Sorts chords by their cells.

@@ -9,10 +9,12 @@ mod make;
 mod steps;
 mod tables;
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use texere_core::BackendError;
+use texere_core::backend::WorkWatch;
 use texere_core::settling::{
     Length, Pass, Place, Settler, SettlingPlan, SettlingSeen, SettlingYarn, freed, tag,
 };
@@ -20,6 +22,7 @@ use texere_core::settling::{
 use super::Parallel;
 use super::instruction_set::InstructionSet;
 use super::simd::{Job, Simd};
+use crate::asked::{self, for_all_threads, in_parts};
 
 use bends::Own;
 use contacts::{Room, Source};
@@ -81,21 +84,76 @@ impl ParallelSettler {
     }
 
     /// Works out all intervals and their chords from the places.
-    fn renew(&mut self) {
+    fn renew(&mut self, watch: WorkWatch<'_>) -> ControlFlow<()> {
         let Self { set, plan, fixed, places, intervals, chords, .. } = self;
         let (plan, fixed, places) = (&**plan, &*fixed, places.as_slice());
         let mut left = chords.as_mut_slice();
-        let tasks: Vec<_> = intervals
-            .chunks_mut(TASK)
-            .enumerate()
-            .map(|(task, intervals)| {
-                let first = task * TASK;
-                let count = plan.chords()[first + intervals.len()] - plan.chords()[first];
-                let chords = left.split_off_mut(..count as usize).unwrap_or_default();
-                Make { plan, fixed, places, first, intervals, chords }
-            })
-            .collect();
-        tasks.into_par_iter().for_each(|make| set.run(make));
+        in_parts(intervals.len(), for_all_threads(TASK), watch, |part| {
+            let tasks: Vec<_> = (part.start..)
+                .step_by(TASK)
+                .zip(intervals[part].chunks_mut(TASK))
+                .map(|(first, intervals)| {
+                    let count = plan.chords()[first + intervals.len()] - plan.chords()[first];
+                    let chords = left.split_off_mut(..count as usize).unwrap_or_default();
+                    Make { plan, fixed, places, first, intervals, chords }
+                })
+                .collect();
+            tasks.into_par_iter().for_each(|make| set.run(make));
+        })
+    }
+
+    /// Moves every control point once, unless `watch` breaks off.
+    fn move_points(&mut self, pass: &Pass, watch: WorkWatch<'_>) -> ControlFlow<(), SettlingSeen> {
+        self.renew(watch)?;
+        let Self { set, plan, fixed, places, seen, steps, lengths, intervals, chords, lists, pulls, .. } =
+            self;
+        let (set, plan, fixed, count) = (*set, &**plan, &*fixed, steps.len());
+        let source = Source {
+            plan,
+            pass,
+            fixed,
+            intervals,
+            chords,
+            starts: &lists.starts,
+            neighbours: &lists.neighbours,
+        };
+        let own = Own { plan, pass, intervals, lengths };
+        let mut what = SettlingSeen::NOTHING;
+        in_parts(count, for_all_threads(TASK), watch, |part| {
+            let from = part.start;
+            let all = pulls[FRONT..][part].par_chunks_mut(TASK).enumerate();
+            let pulled = all.map_init(Room::default, |room, (task, pulls)| {
+                let mut seen = SettlingSeen::NOTHING;
+                let first = from + task * TASK;
+                set.run(PullJob { source, own, first, pulls, room, seen: &mut seen });
+                seen
+            });
+            what = what.and(pulled.reduce(|| SettlingSeen::NOTHING, SettlingSeen::and));
+        })?;
+        for strand in plan.strands() {
+            go_on(strand, pulls);
+        }
+        if let Length::Free { tension } = plan.length() {
+            free(plan, pulls, lengths, tension * pass.ease);
+        }
+        let gather = Gather { plan, pass, places, pulls };
+        in_parts(count, for_all_threads(TASK), watch, |part| {
+            let from = part.start;
+            let next = seen[FRONT..][part.clone()].par_chunks_mut(TASK);
+            let tasks = steps[part].par_chunks_mut(TASK).zip(next).enumerate();
+            let stepped = tasks.map(|(task, (steps, next))| {
+                let mut longest = 0.0;
+                let first = from + task * TASK;
+                set.run(StepJob { gather, first, steps, next, longest: &mut longest });
+                longest
+            });
+            what.step = what.step.max(stepped.reduce(|| 0.0, f32::max));
+        })?;
+        for strand in plan.strands() {
+            plan.renew_ends(strand, &mut seen[FRONT..][..count]);
+        }
+        std::mem::swap(places, seen);
+        ControlFlow::Continue(what)
     }
 }
 
@@ -153,52 +211,32 @@ impl Settler for ParallelSettler {
     }
 
     fn list(&mut self, growth: f32) -> Result<u64, BackendError> {
-        self.renew();
-        let Self { set, plan, fixed, chords, lists, .. } = self;
-        lists.fill(Basis { set: *set, plan, fixed, chords, growth })
+        Ok(self.list_watched(growth, &mut asked::go_on)?.continue_value().unwrap_or(0))
     }
 
     fn pass(&mut self, pass: &Pass) -> Result<SettlingSeen, BackendError> {
-        self.renew();
-        let Self { set, plan, fixed, places, seen, steps, lengths, intervals, chords, lists, pulls, .. } =
-            self;
-        let (set, plan, fixed, count) = (*set, &**plan, &*fixed, steps.len());
-        let source = Source {
-            plan,
-            pass,
-            fixed,
-            intervals,
-            chords,
-            starts: &lists.starts,
-            neighbours: &lists.neighbours,
-        };
-        let own = Own { plan, pass, intervals, lengths };
-        let all = pulls[FRONT..][..count].par_chunks_mut(TASK).enumerate();
-        let pulled = all.map_init(Room::default, |room, (task, pulls)| {
-            let mut seen = SettlingSeen::NOTHING;
-            set.run(PullJob { source, own, first: task * TASK, pulls, room, seen: &mut seen });
-            seen
-        });
-        let what = pulled.reduce(|| SettlingSeen::NOTHING, SettlingSeen::and);
-        for strand in plan.strands() {
-            go_on(strand, pulls);
+        let seen = self.move_points(pass, &mut asked::go_on).continue_value();
+        Ok(seen.unwrap_or(SettlingSeen::NOTHING))
+    }
+
+    fn list_watched(
+        &mut self,
+        growth: f32,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), u64>, BackendError> {
+        if self.renew(watch).is_break() {
+            return Ok(ControlFlow::Break(()));
         }
-        if let Length::Free { tension } = plan.length() {
-            free(plan, pulls, lengths, tension * pass.ease);
-        }
-        let gather = Gather { plan, pass, places, pulls };
-        let tasks = steps.par_chunks_mut(TASK).zip(seen[FRONT..][..count].par_chunks_mut(TASK)).enumerate();
-        let stepped = tasks.map(|(task, (steps, next))| {
-            let mut longest = 0.0;
-            set.run(StepJob { gather, first: task * TASK, steps, next, longest: &mut longest });
-            longest
-        });
-        let step = stepped.reduce(|| 0.0, f32::max);
-        for strand in plan.strands() {
-            plan.renew_ends(strand, &mut seen[FRONT..][..count]);
-        }
-        std::mem::swap(places, seen);
-        Ok(SettlingSeen { step, ..what })
+        let Self { set, plan, fixed, chords, lists, .. } = self;
+        lists.fill(Basis { set: *set, plan, fixed, chords, growth }, watch)
+    }
+
+    fn pass_watched(
+        &mut self,
+        pass: &Pass,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), SettlingSeen>, BackendError> {
+        Ok(self.move_points(pass, watch))
     }
 
     fn keep(&mut self) -> Result<(), BackendError> {

@@ -146,8 +146,8 @@ impl Woven {
         let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
         let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
         let (mut made, mut stopped) = (0.0, false);
-        let rest = crossings::settle(&plan, settler.as_mut(), |_, _| {
-            made += 1.0;
+        let rest = crossings::settle(&plan, settler.as_mut(), |_, seen| {
+            made += if seen.is_some() { 1.0 } else { 0.0 };
             let answer = progress(made / f64::from(plan.passes()));
             stopped = answer.is_break();
             answer

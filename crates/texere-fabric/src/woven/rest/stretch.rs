@@ -44,7 +44,8 @@ impl Woven {
     /// with the given `finish`. Threads that are pulled straighten, the threads that cross them
     /// take their crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to
     /// rest. `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the
-    /// share of the work done, and `Break` ends it within one pass.
+    /// share of the work done. `Break` ends the work: on the CPU within 50 ms, on any other device
+    /// after the pass that it makes.
     ///
     /// **Errors**: [`FinishError::Stretch`] for a factor outside its limits, or if threads would be
     /// straight or jammed before the cloth has that length. [`FinishError::Fabric`] with the errors
@@ -80,7 +81,7 @@ impl Woven {
         let Stretch { along, by } = stretch;
         let across = along.other();
         // Each settling reports its own share of the progress, so that progress shows during the
-        // first one, too, and a wish to stop is heeded after each pass.
+        // first one, too, and a wish to stop is heeded in each of them.
         let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));

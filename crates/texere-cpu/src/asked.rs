@@ -1,0 +1,33 @@
+//! Work in parts, with a question to the caller before each of them.
+
+use std::ops::{ControlFlow, Range};
+
+use texere_core::backend::WorkWatch;
+
+/// The number of tasks of each thread between two questions.
+const TASKS: usize = 4;
+
+/// The size of a part that gives every thread of the pool a few tasks of size `task`.
+pub(crate) fn for_all_threads(task: usize) -> usize {
+    TASKS * task * rayon::current_num_threads()
+}
+
+/// Calls `work` with one part of `0..count` after the other, and asks `watch` before each. All
+/// parts but the last have the size `part`. `Break` as soon as `watch` breaks off.
+pub(crate) fn in_parts(
+    count: usize,
+    part: usize,
+    watch: WorkWatch<'_>,
+    mut work: impl FnMut(Range<usize>),
+) -> ControlFlow<()> {
+    for start in (0..count).step_by(part) {
+        watch()?;
+        work(start..count.min(start + part));
+    }
+    ControlFlow::Continue(())
+}
+
+/// Answers [`in_parts`] for a caller that does not stop the work.
+pub(crate) fn go_on() -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}

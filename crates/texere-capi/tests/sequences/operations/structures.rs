@@ -183,14 +183,19 @@ pub(super) fn operations() -> Vec<Operation> {
         };
         texere_design_warp_knit, 2, |caller| {
             let (looks, name) = (Looks::new(caller), caller.text(&["", "tricot"]));
-            let laps: Vec<_> = (0..2)
+            // By chance alone, a knit is sound once in several thousand calls.
+            let is_sound = caller.random.one_in(4);
+            let mut laps: Vec<_> = (0..2)
                 .map(|_| {
                     let from = caller.random.pick(&[0, 1, 2, 3, 513, -1]);
                     texere_lap { from, to: caller.random.pick(&[from, from + 1, from - 1, from + 2, 9]) }
                 })
                 .collect();
+            if is_sound {
+                laps = vec![texere_lap { from: 1, to: 0 }, texere_lap { from: 1, to: 2 }];
+            }
             let threading = [caller.random.choice(2), TEXERE_NO_YARN];
-            let bar = texere_bar {
+            let mut bar = texere_bar {
                 laps: laps.as_ptr(),
                 lap_count: caller.random.pick(&[2, 2, 2, 2, 1, 0]),
                 threading: threading.as_ptr(),
@@ -199,6 +204,9 @@ pub(super) fn operations() -> Vec<Operation> {
                 offset: caller.random.pick(&[0, 0, 1, -2, i32::MIN]),
                 reserved: 0,
             };
+            if is_sound {
+                bar = texere_bar { lap_count: 2, guide_count: 2, run_in_mm: 0.0, offset: 0, ..bar };
+            }
             let colors = [(); 4].map(|()| caller.random.choice(2) as u8);
             let shifts = [(); 8].map(|()| caller.random.pick(&[0, 0, 0, 1, 1, 2]));
             let jacquard = texere_jacquard {
@@ -212,7 +220,7 @@ pub(super) fn operations() -> Vec<Operation> {
             let is_wide = jacquard.guides == u32::MAX && jacquard.rounds == 1;
             let jacquards = [jacquard; 2];
             let (bars, yarns) = ([bar; 2], [knit_yarn(caller), knit_yarn(caller)]);
-            let knit = texere_warp_knit {
+            let mut knit = texere_warp_knit {
                 jacquards: if is_wide || caller.random.one_in(2) { null() } else { jacquards.as_ptr() },
                 cells: caller.random.choice(2),
                 wales: caller.random.pick(&[2, 2, 2, 1, 0, u32::MAX]),
@@ -229,6 +237,12 @@ pub(super) fn operations() -> Vec<Operation> {
                 looks: looks.given(),
                 ..caller.sized()
             };
+            if is_sound {
+                knit.jacquards = null();
+                (knit.wales, knit.courses, knit.copies) = (2, 2, [1, 2]);
+                (knit.bar_count, knit.yarn_count) = (1, 2);
+                (knit.wale_mm, knit.course_mm) = (1.2, 1.0);
+            }
             caller.out(|out| texere_design_warp_knit(&knit, out))
         };
     }

@@ -8,6 +8,9 @@ use rayon::prelude::*;
 use texere_core::OutOfMemory;
 use texere_core::backend::room;
 
+use crate::ContactError;
+use crate::watch::Watch;
+
 /// The most cells that an interval may lie in on average. If intervals lie in more, the cells are
 /// made larger.
 pub(crate) const ENTRIES: u64 = 6;
@@ -53,20 +56,23 @@ pub(crate) struct Grid {
 impl Grid {
     /// Sorts numbered boxes into cells. `boxes(task)` gives the boxes of one of `tasks`.
     ///
-    /// **Errors**: [`OutOfMemory`].
+    /// **Errors**: [`ContactError::OutOfMemory`], and [`ContactError::Cancelled`] if the caller of
+    /// `watch` asks to stop.
     pub(crate) fn new<I: Iterator<Item = (usize, Bounds)>>(
         tasks: usize,
+        watch: &Watch<'_>,
         boxes: impl Fn(usize) -> I + Sync,
-    ) -> Result<Self, OutOfMemory> {
+    ) -> Result<Self, ContactError> {
         let (whole, sides, count) = (0..tasks)
             .into_par_iter()
-            .map(|task| {
-                boxes(task).fold((Bounds::NOTHING, 0.0, 0u64), |(whole, sides, count), (_, each)| {
+            .map(|task| -> Result<_, ContactError> {
+                watch.advance(0)?;
+                Ok(boxes(task).fold((Bounds::NOTHING, 0.0, 0u64), |(whole, sides, count), (_, each)| {
                     let side = f64::from((each.high - each.low).max_element());
                     (whole.joined(each), sides + side, count + 1)
-                })
+                }))
             })
-            .reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| (a.0.joined(b.0), a.1 + b.1, a.2 + b.2));
+            .try_reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| Ok((a.0.joined(b.0), a.1 + b.1, a.2 + b.2)))?;
         // Cells are made larger as long as a few large boxes lie in too many of them.
         let mut cell = (CELL * sides / count.max(1) as f64) as f32;
         loop {
@@ -87,10 +93,10 @@ impl Grid {
                 };
                 grid.ends = zeroed("a grid's cells", total as u64)?;
                 let most = if total <= 1.0 { u64::MAX } else { ENTRIES * count };
-                let entries = grid.count(tasks, &boxes, most);
+                let entries = grid.count(tasks, watch, &boxes, most)?;
                 if entries <= most {
                     grid.entries = zeroed("a grid's entries", entries)?;
-                    grid.fill(tasks, &boxes);
+                    grid.fill(tasks, watch, &boxes)?;
                     return Ok(grid);
                 }
             }
@@ -103,26 +109,34 @@ impl Grid {
     fn count<I: Iterator<Item = (usize, Bounds)>>(
         &self,
         tasks: usize,
+        watch: &Watch<'_>,
         boxes: impl Fn(usize) -> I + Sync,
         most: u64,
-    ) -> u64 {
+    ) -> Result<u64, ContactError> {
         let reached = AtomicU64::new(0);
-        (0..tasks).into_par_iter().for_each(|task| {
+        (0..tasks).into_par_iter().try_for_each(|task| {
+            watch.advance(0)?;
             for (_, each) in boxes(task) {
                 let cells = (self.cell(each.high) - self.cell(each.low) + 1).as_u64vec3().element_product();
                 if reached.fetch_add(cells, Ordering::Relaxed) > most.saturating_sub(cells) {
-                    return;
+                    break;
                 }
                 self.each_cell(&each, |cell| {
                     self.ends[cell].fetch_add(1, Ordering::Relaxed);
                 });
             }
-        });
-        reached.into_inner()
+            Ok::<(), ContactError>(())
+        })?;
+        Ok(reached.into_inner())
     }
 
     /// Turns the counts into places of entries, and writes the boxes' numbers to these places.
-    fn fill<I: Iterator<Item = (usize, Bounds)>>(&mut self, tasks: usize, boxes: impl Fn(usize) -> I + Sync) {
+    fn fill<I: Iterator<Item = (usize, Bounds)>>(
+        &mut self,
+        tasks: usize,
+        watch: &Watch<'_>,
+        boxes: impl Fn(usize) -> I + Sync,
+    ) -> Result<(), ContactError> {
         let mut start = 0;
         for end in &mut self.ends {
             let count = *end.get_mut();
@@ -132,14 +146,16 @@ impl Grid {
         // Each entry that is written moves its cell's start on by one. After all entries, the
         // starts have become the ends.
         let grid = &*self;
-        (0..tasks).into_par_iter().for_each(|task| {
+        (0..tasks).into_par_iter().try_for_each(|task| {
+            watch.advance(0)?;
             for (number, each) in boxes(task) {
                 grid.each_cell(&each, |cell| {
                     let place = grid.ends[cell].fetch_add(1, Ordering::Relaxed);
                     grid.entries[place as usize].store(number as u32, Ordering::Relaxed);
                 });
             }
-        });
+            Ok(())
+        })
     }
 
     /// The cell that `corner` lies in. Rounding keeps the order of corners.

@@ -209,7 +209,7 @@ fn measured(
     let nothing = || if ratio.is_finite() { Found::up_to(ratio) } else { Found::worst() };
     let probe = Probe::new(yarns, sampling, near);
     let spans = probe.spans(TASK);
-    let grid = Grid::new(spans.len(), |span| {
+    let grid = Grid::new(spans.len(), &watch, |span| {
         let line = &spans[span].line;
         spans[span].points.clone().map(|point| (point, line.bounds(point, near)))
     })?;

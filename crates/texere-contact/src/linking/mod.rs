@@ -149,7 +149,7 @@ fn compared(
     let mut found = Found::default();
     for &shape in searches {
         let images = Images::new(boundary.repeat(), points, &spans, |span| shapes.rooms(span, shape))?;
-        let grid = Grid::new(spans.len(), |span| {
+        let grid = Grid::new(spans.len(), &watch, |span| {
             shapes.rooms(&spans[span], shape).flat_map(|each| images.of(each))
         })?;
         let search = Search::new(&shapes, &images, &grid, shape);

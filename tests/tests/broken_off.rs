@@ -65,7 +65,8 @@ fn pass(settler: &mut dyn Settler, last: Option<usize>) -> usize {
     questions(last, |watch| settler.pass_watched(&PASS, watch).expect("a pass").is_break())
 }
 
-/// A list or a pass of a settling that is broken off ends there, and no point has moved. The number of questions grows with the cloth.
+/// A list or a pass of a settling that is broken off ends there, and no point has moved. The number
+/// of questions grows with the cloth.
 #[test]
 fn settlings_are_broken_off_within_a_pass() {
     for device in devices() {

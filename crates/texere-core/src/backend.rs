@@ -20,7 +20,7 @@
 pub use crate::device::Schedule;
 pub use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
-    WorkWatch, take_over_host,
+    take_over_host,
 };
 pub use crate::layout::Edits;
 pub use crate::live::LiveMesh;
@@ -33,3 +33,4 @@ pub use crate::plan::{BLOCK_RINGS, Block, Chunk, Chunks, Part, Plan, TablesId, W
 pub use crate::ring::Trajectory;
 pub use crate::session::{Session, SessionError};
 pub use crate::traffic::Traffic;
+pub use crate::work_watch::WorkWatch;

@@ -10,6 +10,7 @@ use std::time::Duration;
 use crate::backend::{Chunk, MeshMut, Plan, Traffic};
 use crate::definitions::Ring;
 use crate::settling::{Settler, points_of};
+use crate::work_watch::WorkWatch;
 use crate::{Attribute, BackendError, ControlPoint, MeshPiece, PackedVertex};
 
 /// One of an engine's places for a chunk. The chunk's tables, rings and mesh stay in the slot until
@@ -279,9 +280,6 @@ pub struct ScanChunks<'a> {
     yarns: Range<usize>,
     watch: WorkWatch<'a>,
 }
-
-/// A callback that is asked, now and then, whether to go on.
-pub type WorkWatch<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 impl<'a> ScanChunks<'a> {
     pub(crate) fn new(

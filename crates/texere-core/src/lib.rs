@@ -65,6 +65,7 @@ mod traffic;
 mod turn;
 mod twist;
 mod vertex;
+mod work_watch;
 mod yarns;
 
 pub use arrange::Placement;

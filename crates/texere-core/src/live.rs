@@ -7,8 +7,9 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::backend::{Chunk, PaddedPoints, Part, Plan, SessionError, Traffic};
-use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings, WorkWatch};
+use crate::engine::{AttributeSink, Engine, MeshSink, ScanChunk, ScanChunks, Slot, StageTimings};
 use crate::plan::BLOCK_RINGS;
+use crate::work_watch::WorkWatch;
 use crate::{Backend, BackendError, Limits, OutOfMemory, Topology, Vertex};
 
 /// The whole mesh of a fabric on a device. Yarns can be edited. After an edit only the changed

@@ -10,10 +10,10 @@ use crate::backend::{Chunk, MeshMut, Plan, TablesId};
 use crate::definitions::Ring;
 use crate::engine::{
     AttributeSink, Engine, MeshSink, PackedSink, RingSink, ScanChunk, ScanChunks, Slot, StageTimings,
-    WorkWatch,
 };
 use crate::settling::{Settler, SettlingYarn};
 use crate::traffic::Traffic;
+use crate::work_watch::WorkWatch;
 use crate::{Backend, BackendError, ControlPoint, Limits, Vertex};
 
 pub use self::error::SessionError;

@@ -185,8 +185,8 @@ impl<'a> Resting<'a> {
         Self { tension, ..self }
     }
 
-    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends the work:
-    /// on the CPU within 50 ms, on any other device after the pass that it makes.
+    /// Calls `progress` with the share of the work that is done, from 0 to 1. `Break` ends the
+    /// work: on the CPU within 50 ms, on any other device after the pass that it makes.
     pub fn progress(self, progress: impl FnMut(f64) -> ControlFlow<()> + Send + 'a) -> Self {
         Self { progress: Box::new(progress), ..self }
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{CrossingState, CrossingsPass, CrossingsPlan};
 use crate::BackendError;
-use crate::backend::WorkWatch;
+use crate::work_watch::WorkWatch;
 
 /// The measures of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,8 @@ use glam::IVec3;
 
 use super::{Pass, Place, SettlingPlan};
 use crate::BackendError;
-use crate::backend::{WorkWatch, zeroed};
+use crate::backend::zeroed;
+use crate::work_watch::WorkWatch;
 
 /// The measures of a pass. All but `step` are taken before the points move.
 #[derive(Debug, Clone, Copy, PartialEq)]

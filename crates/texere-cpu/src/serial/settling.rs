@@ -123,7 +123,7 @@ impl SerialSettler {
         let mut next = self.places.clone();
         for strand in plan.strands() {
             for point in 0..i64::from(strand.points) {
-                if point as usize % PART == 0 {
+                if (point as usize).is_multiple_of(PART) {
                     watch()?;
                 }
                 let place = strand.first as usize + point as usize;
@@ -194,7 +194,7 @@ impl Settler for SerialSettler {
         let (mut starts, mut neighbours) = (vec![0], Vec::new());
         let mut beside = Vec::new();
         for (chord, middle) in (0_u32..).zip(&middles) {
-            if chord as usize % PART == 0 && watch().is_break() {
+            if (chord as usize).is_multiple_of(PART) && watch().is_break() {
                 return Ok(ControlFlow::Break(()));
             }
             beside.clear();

@@ -95,15 +95,15 @@ mod unix {
         }
     }
 
-    /// The program while it makes a mesh, which takes seconds.
-    fn meshing(folder: &Path, shell: &str) -> Child {
+    /// The program while it writes a cloth to `name` in `folder`, which takes seconds for a mesh.
+    fn writing(folder: &Path, name: &str, shell: &str) -> Child {
         // The tests may run with ignored signals, as jobs in a shell's background do.
         let heard = cfg!(target_os = "linux").then_some(["--default-signal=INT,TERM,HUP,USR1,XFSZ"]);
         let program = Command::new("env")
             .args(heard.into_iter().flatten())
             .args(["sh", "-c", &format!("{shell} exec \"$@\""), "sh", env!("CARGO_BIN_EXE_texere")])
             .args(["mesh", &design("paper/1630x1500.toml"), "--device", "cpu-serial", "-o"])
-            .arg(folder.join("cloth.ply"))
+            .arg(folder.join(name))
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .process_group(0)
@@ -122,7 +122,7 @@ mod unix {
         for (signal, number) in signals {
             let folder = tempfile::tempdir().unwrap();
             fs::write(folder.path().join("cloth.ply"), "old").unwrap();
-            let mut program = meshing(folder.path(), "");
+            let mut program = writing(folder.path(), "cloth.ply", "");
             at_work(folder.path(), &mut program);
             send(signal, &program);
             let output = program.wait_with_output().unwrap();
@@ -133,12 +133,92 @@ mod unix {
         }
     }
 
+    /// Old files of a cloth: those that `extension` has a writer of its own for, and a library of
+    /// materials.
+    fn old_files(folder: &Path, extension: &str) -> Vec<String> {
+        for name in [&format!("cloth.{extension}"), "cloth.mtl"] {
+            fs::write(folder.join(name), "old").unwrap();
+        }
+        names(folder)
+    }
+
+    fn assert_old(folder: &Path, before: &[String]) {
+        assert_eq!(names(folder), before);
+        for name in before {
+            assert_eq!(fs::read(folder.join(name)).unwrap(), b"old", "{name}");
+        }
+    }
+
+    #[test]
+    fn a_signal_leaves_the_old_file_of_every_format() {
+        for extension in ["glb", "stl", "obj"] {
+            let folder = tempfile::tempdir().unwrap();
+            let before = old_files(folder.path(), extension);
+            let mut program = writing(folder.path(), &format!("cloth.{extension}"), "");
+            at_work(folder.path(), &mut program);
+            send("TERM", &program);
+            assert_eq!(program.wait().unwrap().signal(), Some(15), "{extension}");
+            assert_old(folder.path(), &before);
+        }
+    }
+
+    /// A limit on the size of a file has the same effect as a disk that becomes full.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_leaves_the_old_file_of_every_format() {
+        for extension in ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"] {
+            let folder = tempfile::tempdir().unwrap();
+            let before = old_files(folder.path(), extension);
+            let name = format!("cloth.{extension}");
+            let program = writing(folder.path(), &name, "ulimit -f 1000; trap '' XFSZ;");
+            let output = program.wait_with_output().unwrap();
+            assert_eq!(output.status.code(), Some(1), "{extension}: {}", stderr(&output));
+            let said = stderr(&output);
+            assert!(said.contains(&name) && said.contains("File too large"), "{extension}: {said}");
+            assert_old(folder.path(), &before);
+        }
+    }
+
+    /// Nobody but root may write into the folder.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_read_only_folder_keeps_the_old_file_of_every_format() {
+        if Command::new("id").arg("-u").output().unwrap().stdout != b"0\n" {
+            // A folder of another user can't be made.
+            return;
+        }
+        let (folder, program) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        fs::copy(env!("CARGO_BIN_EXE_texere"), program.path().join("texere")).unwrap();
+        fs::copy(design("plain.toml"), folder.path().join("plain.toml")).unwrap();
+        for path in [program.path(), folder.path()] {
+            fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
+        }
+        for extension in ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"] {
+            let name = format!("cloth.{extension}");
+            fs::write(folder.path().join(&name), "old").unwrap();
+            fs::set_permissions(folder.path().join(&name), fs::Permissions::from_mode(0o666)).unwrap();
+            let before = names(folder.path());
+            let output = Command::new(program.path().join("texere"))
+                .args(["mesh", "plain.toml", "-o", &name, "--device", "cpu"])
+                .current_dir(folder.path())
+                .uid(65534)
+                .gid(65534)
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), Some(1), "{extension}: {}", stderr(&output));
+            let said = stderr(&output);
+            assert!(said.contains("Permission denied"), "{extension}: {said}");
+            assert_eq!(names(folder.path()), before);
+            assert_eq!(fs::read(folder.path().join(&name)).unwrap(), b"old");
+        }
+    }
+
     /// The program is started as `nohup` starts it, with a signal ignored.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_signal_that_was_ignored_stays_ignored() {
         let folder = tempfile::tempdir().unwrap();
-        let mut program = meshing(folder.path(), "trap '' HUP;");
+        let mut program = writing(folder.path(), "cloth.ply", "trap '' HUP;");
         at_work(folder.path(), &mut program);
         send("HUP", &program);
         std::thread::sleep(Duration::from_millis(300));
@@ -151,7 +231,7 @@ mod unix {
     #[test]
     fn what_a_kill_leaves_the_next_write_removes_and_no_more() {
         let folder = tempfile::tempdir().unwrap();
-        let mut killed = meshing(folder.path(), "");
+        let mut killed = writing(folder.path(), "cloth.ply", "");
         at_work(folder.path(), &mut killed);
         send("KILL", &killed);
         assert_eq!(killed.wait().unwrap().signal(), Some(9));
@@ -159,7 +239,7 @@ mod unix {
         // Another program is at work: its file must stay, and the file of the killed program must
         // go.
         let left = names(folder.path());
-        let mut working = meshing(folder.path(), "");
+        let mut working = writing(folder.path(), "cloth.ply", "");
         let start = Instant::now();
         while names(folder.path()) == left {
             assert!(start.elapsed() < Duration::from_secs(60) && working.try_wait().unwrap().is_none());

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
+/// The most vertices of a PLY file, which takes more of them than any other format.
+const PLY_VERTICES: u64 = u32::MAX as u64;
+
 /// Errors of writers. After an error there is no new file, and an old file at the path is as it
 /// was.
 #[derive(Debug, Error)]
@@ -67,10 +70,12 @@ pub enum WriteError {
         /// The most bytes that the format can have.
         limit: u64,
     },
-    /// PLY numbers vertices with 32 bits, and so do programs that read OBJ. Fewer sides or
-    /// subdivisions make fewer vertices.
+    /// PLY numbers vertices with 32 bits, and programs that read OBJ number them with 31. Fewer
+    /// sides or subdivisions make fewer vertices.
     #[error(
-        "{format} of {vertices} vertices or more, but the format ends at {limit}; use fewer sides or subdivisions"
+        "{format} of {vertices} vertices or more, but the format ends at {limit}; {}use fewer sides or subdivisions",
+        // Only PLY numbers more vertices.
+        if *.limit < PLY_VERTICES && *.vertices <= PLY_VERTICES { "write a PLY file, or " } else { "" }
     )]
     TooManyVertices {
         /// The format.

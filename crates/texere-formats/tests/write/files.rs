@@ -154,6 +154,12 @@ fn a_mesh_too_large_for_its_format_is_refused_at_once() {
     // 99,999 intervals of 1,000 rings and one ring more, 64 vertices of 24 bytes each.
     let vertices: u64 = (99_999 * 1_000 + 1) * 64;
     let bytes = vertices * 24;
+    // 6.4e9 vertices are too many for PLY as well, so the error for OBJ does not name it.
+    let obj = stream(Pipeline::new(&yarns).settings(settings), Path::new("never.obj")).unwrap_err();
+    assert!(obj.to_string().ends_with("ends at 2147483647; use fewer sides or subdivisions"), "{obj}");
+    let settings_of_ply = Settings { sides: 30, ..settings };
+    let obj = stream(Pipeline::new(&yarns).settings(settings_of_ply), Path::new("never.obj")).unwrap_err();
+    assert!(obj.to_string().ends_with("write a PLY file, or use fewer sides or subdivisions"), "{obj}");
     leaves_no_trace(
         |path| stream(Pipeline::new(&yarns).settings(settings), path).unwrap_err(),
         |error| match *error {

@@ -75,12 +75,29 @@ impl Fail {
         }
     }
 
-    /// An `option` that needs a design was given for the saved cloth in `path`.
+    /// An `option` that needs a design was given for the saved cloth or the curves in `path`.
     pub(crate) fn needs_design(option: &str, path: &Path) -> Self {
+        let path = path.display();
+        Self { code: USAGE, source: format!("{option} needs a design: {path} holds yarns alone").into() }
+    }
+
+    /// An `option` of curves was given for another kind of file.
+    pub(crate) fn needs_curves(option: &str, path: &Path) -> Self {
         let path = path.display();
         Self {
             code: USAGE,
-            source: format!("{option} needs a design: {path} holds saved yarns alone").into(),
+            source: format!("{option} is for files of curves, .bcc and .obj: {path} is another kind of file")
+                .into(),
+        }
+    }
+
+    /// The diameter of the curves in `path` was not given.
+    pub(crate) fn needs_diameter(path: &Path) -> Self {
+        let path = path.display();
+        Self {
+            code: USAGE,
+            source: format!("{path} holds curves, which have no thickness: give it with --diameter MM")
+                .into(),
         }
     }
 

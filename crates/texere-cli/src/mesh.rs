@@ -34,12 +34,12 @@ struct Cloth {
 }
 
 impl Cloth {
-    /// The cloth that `args` name: saved cloth, or the cloth of a design.
+    /// The cloth that `args` name: saved cloth, curves, or the cloth of a design.
     fn new<D: Deref<Target = dyn Backend>>(
         args: &MeshArgs,
         open: impl FnOnce() -> Result<D, BackendError>,
     ) -> Result<Self, Fail> {
-        if let Some(yarns) = reading::saved(&args.design, &args.settings, &args.settling)? {
+        if let Some(yarns) = reading::yarns(&args.design, args.curves, &args.settings, &args.settling)? {
             let output = Output::to(&args.output).sparing([&args.design]);
             output.check()?;
             return Ok(Self { yarns, output, warnings: Vec::new(), settling: None });

@@ -1,11 +1,11 @@
-//! Reads designs and saved yarns, and prints the remarks of readers.
+//! Reads designs, saved yarns and curves, and prints the remarks of readers.
 
 use std::io::Write;
 use std::path::Path;
 
 use texere::{Design, Yarns};
 
-use crate::args::{SettingsArgs, SettlingArgs, is_yarns};
+use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_yarns};
 use crate::fail::Fail;
 use crate::terminal::line;
 
@@ -17,22 +17,32 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     Ok(design)
 }
 
-/// The yarns in `path`, if it is a file of saved yarns, or none if it is a design.
+/// The yarns in `path`, if it is a file of saved yarns or of curves, or none if it is a design.
 ///
-/// **Errors**: those of reading, and an option of the command line that needs a design.
-pub(crate) fn saved(
+/// **Errors**: those of reading, an option of the command line that needs a file of another kind,
+/// and a diameter that curves lack.
+pub(crate) fn yarns(
     path: &Path,
+    curves: CurveArgs,
     settings: &SettingsArgs,
     settling: &SettlingArgs,
 ) -> Result<Option<Yarns>, Fail> {
-    if !is_yarns(path) {
+    let is_curves = is_read_as_curves(path);
+    if let Some(option) = curves.given().filter(|_| !is_curves) {
+        return Err(Fail::needs_curves(option, path));
+    }
+    if !is_yarns(path) && !is_curves {
         return Ok(None);
     }
     let section = settings.section.as_ref().map(|_| "--section");
     if let Some(option) = section.or(settling.asked()) {
         return Err(Fail::needs_design(option, path));
     }
-    let yarns = texere::read::yarns(path)?.yarns;
+    let yarns = if is_curves {
+        texere::read::curves(path, curves.scale().ok_or_else(|| Fail::needs_diameter(path))?)?
+    } else {
+        texere::read::yarns(path)?.yarns
+    };
     Ok(Some(match settings.tension {
         Some(tension) => yarns.with_tension(tension)?,
         None => yarns,

@@ -44,9 +44,10 @@ struct Shown {
 }
 
 impl Shown {
-    /// The cloth that `args` name: saved cloth, or the cloth of a design.
+    /// The cloth that `args` name: saved cloth, curves, or the cloth of a design.
     fn new(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
-        let saved = stages.time("read", || reading::saved(&args.design, &args.settings, &args.settling))?;
+        let saved = stages
+            .time("read", || reading::yarns(&args.design, args.curves, &args.settings, &args.settling))?;
         match saved {
             Some(yarns) => Self::of_saved(args, yarns),
             None => Self::of_design(args, stages),

@@ -65,9 +65,10 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::yarns(path))?.yarns))
 }
 
-/// Reads curves that another program wrote in a BCC file (``.bcc``): round yarns of one diameter.
-/// The file says neither how thick they are nor what its unit is: ``diameter_mm`` and ``unit_mm``,
-/// the length of the unit, do. A unit of 1 mm keeps coordinates to the bit.
+/// Reads curves that another program wrote, in a BCC file (``.bcc``) or as polylines of an OBJ file
+/// (``.obj``): round yarns of one diameter. The file says neither how thick they are nor what its
+/// unit is: ``diameter_mm`` and ``unit_mm``, the length of the unit, do. A unit of 1 mm keeps
+/// coordinates to the bit.
 ///
 /// >>> import tempfile, pathlib
 /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.bcc"

@@ -50,6 +50,15 @@ pub(crate) const KNITOUT: &[&str] = &[
     ";!knitout-3\nin yarn ;comment\nknit + f0 yarn\nknit + fs1 yarn\nxfer f0 bs0\nxfer bs0 f0\nknit - f0 yarn\nknit - f0\n",
 ];
 
+/// OBJ files with polylines: of several vertices and of an edge at a time, open and closed, beside
+/// statements that are passed over.
+pub(crate) const POLYLINES: &[&str] = &[
+    "# two yarns\nv 0 0 0\nv 1 0.5 0.2\nv 2 0 -0.1\nv 3.5 0 0 1.0\nl 1 2 3 4\nv 0 1 0\nv 3 1 0\nl -2 -1\n",
+    "mtllib cloth.mtl\no ring\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\ns off\n\
+     l 1 2\nl 2 3\nl 3 4\nl 4 1\n",
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nl 1/1 2/1 \\\n 3/1 1/1\n",
+];
+
 /// Design files of knits, some with an image `motif.png` or a program `program.k` beside them.
 pub(crate) const KNITS: &[&str] = &[
     "[knit]\nchart = \"\"\"\nkkRRrrk\n>kpptk<\nkkmkllL\n\"\"\"\nrepeat = [2, 1]\nyarns = [\"2 a\", \"b\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n\

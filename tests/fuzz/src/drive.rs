@@ -44,7 +44,7 @@ pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
         return saved(path);
     }
-    if path.extension().is_some_and(|ending| ending == "bcc") {
+    if path.extension().is_some_and(|ending| ending == "bcc" || ending == "obj") {
         return curves(path);
     }
     let mut design = match read(path) {

@@ -44,11 +44,13 @@ pub enum Reader {
     Yarns,
     /// Files of curves.
     Curves,
+    /// OBJ files with polylines.
+    Polylines,
 }
 
 impl Reader {
     /// All readers.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Wif,
         Self::Design,
         Self::Notation,
@@ -59,6 +61,7 @@ impl Reader {
         Self::WarpKnit,
         Self::Yarns,
         Self::Curves,
+        Self::Polylines,
     ];
 
     /// The name of the reader, in lower case.
@@ -75,6 +78,7 @@ impl Reader {
             Self::WarpKnit => "warp-knit",
             Self::Yarns => "yarns",
             Self::Curves => "curves",
+            Self::Polylines => "polylines",
         }
     }
 }
@@ -120,6 +124,7 @@ impl Input {
             ],
             Reader::Yarns => vec![("design.yarns", yarn_bytes::mutated(random))],
             Reader::Curves => vec![("design.bcc", yarn_bytes::mutated_curves(random))],
+            Reader::Polylines => vec![("design.obj", text::mutated(corpus::POLYLINES, random))],
         };
         Self { files }
     }

@@ -57,6 +57,11 @@ fn saved_yarns() {
 }
 
 #[test]
+fn polylines() {
+    ten_thousand(Reader::Polylines);
+}
+
+#[test]
 fn curves() {
     ten_thousand(Reader::Curves);
 }

@@ -1,6 +1,8 @@
 //! The command line.
 
 mod bake;
+mod curves;
+mod numbers;
 mod path;
 mod render;
 mod settings;
@@ -13,9 +15,10 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 
 pub(crate) use bake::BakeArgs;
+pub(crate) use curves::CurveArgs;
+use numbers::point;
 use path::{file_of, mesh_file};
-pub(crate) use path::{is_curves, is_yarns};
-use render::point;
+pub(crate) use path::{is_curves, is_read_as_curves, is_yarns};
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::{SettingsArgs, undersampled};
 pub(crate) use settling::SettlingArgs;
@@ -103,8 +106,8 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
-    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
-    /// cloth
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, a .yarns file of saved
+    /// cloth, or a .bcc or .obj file of curves that another program wrote
     pub(crate) design: PathBuf,
     /// The file to write: .glb, .ply, .stl or .obj for a mesh; .bcc or .usda for the yarns'
     /// centrelines, as curves for other programs; .yarns saves the cloth at rest, which need not
@@ -115,6 +118,8 @@ pub(crate) struct MeshArgs {
     /// wgpu:nvidia, opencl:0/per-yarn
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
+    #[command(flatten)]
+    pub(crate) curves: CurveArgs,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
     #[command(flatten)]

@@ -16,6 +16,12 @@ pub(crate) fn is_curves(path: &Path) -> bool {
     CurveFormat::from_path(path).is_ok()
 }
 
+/// Whether texere reads a path as curves of another program.
+pub(crate) fn is_read_as_curves(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ["bcc", "obj"].iter().any(|known| ending.eq_ignore_ascii_case(known)))
+}
+
 /// The parser of a path whose ending must be that of a mesh, of curves or of saved yarns.
 pub(super) fn mesh_file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match Format::from_path(&path) {

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use texere::picture::{Background, Quality};
 
+use super::numbers::{millimetres, point};
 use super::path::file_of;
-use super::{SettingsArgs, SettlingArgs};
+use super::{CurveArgs, SettingsArgs, SettlingArgs};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
-    /// A .toml design, a .wif draft, a .k program of a knitting machine, or a .yarns file of saved
-    /// cloth
+    /// A .toml design, a .wif draft, a .k program of a knitting machine, a .yarns file of saved
+    /// cloth, or a .bcc or .obj file of curves that another program wrote
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]
@@ -51,6 +52,8 @@ pub(crate) struct RenderArgs {
     /// Do everything N times, to see how long it takes on a warm device
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) repeat: u32,
+    #[command(flatten)]
+    pub(crate) curves: CurveArgs,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
     #[command(flatten)]
@@ -99,20 +102,4 @@ fn background(text: &str) -> Result<Background, String> {
         }
         _ => Err("expected ground, none, or a colour such as #f4f1ea".into()),
     }
-}
-
-/// A length from its number.
-fn millimetres(text: &str) -> Result<f32, String> {
-    let number = text.parse().ok().filter(|number: &f32| number.is_finite() && *number > 0.0);
-    number.ok_or_else(|| "expected a finite number of millimetres above 0".into())
-}
-
-/// A point from its numbers.
-pub(super) fn point(text: &str) -> Result<[f32; 2], String> {
-    let (x, y) = text.split_once(',').ok_or("expected two numbers, such as 12.5,8")?;
-    let number = |text: &str| match text.trim().parse::<f32>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!("\"{text}\" is not a number of millimetres")),
-    };
-    Ok([number(x)?, number(y)?])
 }

@@ -1,4 +1,4 @@
-//! Reads files of curves (BCC): yarns that other programs made.
+//! Reads files of curves (BCC, and OBJ's polylines): yarns that other programs made.
 
 use std::path::Path;
 
@@ -7,27 +7,27 @@ use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
 
 use super::ReadError;
 use super::bytes::Bytes;
+use super::curve_scale::CurveScale;
 use super::file::{bytes_of, open, small};
+use super::polylines::polylines;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
 use crate::yarns_file::BYTES_MAX;
 
-/// What a file of curves does not say about its yarns.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveScale {
-    /// The length of the file's unit, mm. For coordinates in metres it is 1000.
-    pub unit_mm: f32,
-    /// The diameter of all yarns, mm.
-    pub diameter_mm: f32,
-}
-
-/// Reads a file of curves in the format BCC, Binary Curve Collection. Each curve becomes a round
-/// yarn of the diameter in `scale`, a spline of tension 0 through the curve's points. If the file
-/// says that x or y is up, the curves are turned so that this axis becomes z.
+/// Reads a file of curves. Each curve becomes a round yarn of the diameter in `scale`, a spline of
+/// tension 0 through the curve's points. A unit of 1 mm keeps coordinates to the bit.
 ///
-/// A unit of 1 mm keeps coordinates to the bit.
+/// A file that ends in `.obj` is read as Wavefront OBJ: its polylines (statements `l`) are the
+/// curves, and all else in it, such as faces, is passed over. A polyline that begins where the one
+/// before it ended belongs to the same yarn, and a yarn that ends at its first vertex is closed.
+/// The axis z is up.
 ///
-/// **Errors**: [`ReadError::Bytes`], which names the byte, for a file that is cut short, goes on
-/// behind its last curve, has counts that do not fit one another, or is of another kind;
+/// Any other file is read as BCC, Binary Curve Collection. If the file says that x or y is up, the
+/// curves are turned so that this axis becomes z.
+///
+/// **Errors**: [`ReadError::Bytes`], which names the byte, for a BCC file that is cut short, goes
+/// on behind its last curve, has counts that do not fit one another, or is of another kind;
+/// [`ReadError::Word`], with line and column, for a number or a vertex that OBJ does not allow, and
+/// [`ReadError::MissingKey`] for an OBJ file without polylines;
 /// [`ReadError::Yarns`] for coordinates or a diameter that no yarn may have;
 /// [`ReadError::TooLarge`] beyond 16 GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`],
 /// [`ReadError::Io`].
@@ -51,7 +51,8 @@ pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadEr
     curves_from(path, &bytes_of(&open, path, BYTES_MAX)?, scale)
 }
 
-/// Reads the bytes of a file of curves that a program has in memory. Errors call the file `name`.
+/// Reads the bytes of a file of curves that a program has in memory. Errors call the file `name`,
+/// and its ending says which kind of file it is.
 ///
 /// **Errors**: the errors of [`curves`].
 ///
@@ -63,6 +64,9 @@ pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadEr
 pub fn curves_from(name: impl AsRef<Path>, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
     let file = name.as_ref();
     small(file, bytes.len() as u64, BYTES_MAX)?;
+    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+        return polylines(file, bytes, scale);
+    }
     let mut bytes = Bytes::new(file, bytes);
     let Header { curves, points: planned, up } = header(&mut bytes)?;
     let mut yarns: Vec<Yarn> = room("yarns", curves)?;

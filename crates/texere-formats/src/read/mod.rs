@@ -2,6 +2,7 @@
 //! yarns](fn@yarns).
 
 mod bytes;
+mod curve_scale;
 mod curves;
 mod design;
 #[cfg(feature = "toml")]
@@ -20,6 +21,7 @@ mod machine_fault;
 mod named_place;
 #[cfg(feature = "toml")]
 mod point_paper;
+mod polylines;
 mod program_place;
 mod refusal;
 mod threads;
@@ -31,7 +33,8 @@ use std::cell::{Cell, RefCell};
 use std::io;
 use std::path::Path;
 
-pub use curves::{CurveScale, curves, curves_from};
+pub use curve_scale::CurveScale;
+pub use curves::{curves, curves_from};
 pub use design::Design;
 pub use error::{FilePlace, ReadError};
 pub use fault_place::{FaultPlace, fault_place};

@@ -1,0 +1,28 @@
+//! What files of curves do not say about their yarns.
+
+use texere::read::CurveScale;
+
+use super::numbers::millimetres;
+
+/// The scale of curves that another program wrote.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(crate) struct CurveArgs {
+    /// The diameter of all yarns of a file of curves, mm
+    #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
+    diameter: Option<f32>,
+    /// The length of the unit of a file of curves, mm: 1000 for metres; 1 if left out
+    #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
+    unit: Option<f32>,
+}
+
+impl CurveArgs {
+    /// The scale, unless the diameter is missing.
+    pub(crate) fn scale(self) -> Option<CurveScale> {
+        Some(CurveScale { unit_mm: self.unit.unwrap_or(1.0), diameter_mm: self.diameter? })
+    }
+
+    /// The first option given, if there is one.
+    pub(crate) fn given(self) -> Option<&'static str> {
+        self.diameter.map(|_| "--diameter").or(self.unit.map(|_| "--unit"))
+    }
+}

@@ -2,9 +2,10 @@
 //! language runs it beside its own calls, by turns, as
 //! `crates/texere-python/benches/overhead.py` does.
 //!
-//! `cargo run --release -p texere-bench --bin beside -- FILE.yarns`
+//! `cargo run --release -p texere-bench --bin beside -- FILE.yarns...`
 //!
-//! Each line of the standard input is a number of threads, each of which makes the mesh once.
+//! Each line of the standard input is a number of threads. Each thread makes one mesh once: that of
+//! the first file, of the second file, and so on.
 
 use std::error::Error;
 use std::io::{Write, stdin, stdout};
@@ -14,29 +15,29 @@ use std::time::Instant;
 use texere::{Backend, Pipeline, PipelineError, Settings, Yarns};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = std::env::args().nth(1).ok_or("name a file of saved yarns")?;
-    let yarns = texere::read::yarns(file)?.yarns;
+    let read = |file| texere::read::yarns(file).map(|saved| saved.yarns);
+    let cloths: Vec<Yarns> = std::env::args().skip(1).map(read).collect::<Result<_, _>>()?;
     let device = texere::open("cpu")?;
     println!("{} {}", Settings::default().sides, Settings::default().subdivisions);
     for line in stdin().lines() {
         let threads: usize = line?.trim().parse()?;
         let start = Instant::now();
-        made(&yarns, &*device, threads)?;
+        made(cloths.get(..threads).ok_or("name a file for each thread")?, &*device)?;
         println!("{}", start.elapsed().as_secs_f64());
         stdout().flush()?;
     }
     Ok(())
 }
 
-/// Makes the mesh in each of so many threads. The time includes giving the memory back, as it does
+/// Makes the mesh of each cloth, in a thread for each if there are several. The time includes giving the memory back, as it does
 /// where Python's last reference goes.
-fn made(yarns: &Yarns, device: &dyn Backend, threads: usize) -> Result<(), PipelineError> {
-    let mesh = || Pipeline::new(yarns).mesh(device).map(drop);
-    if threads == 1 {
-        return mesh();
+fn made(cloths: &[Yarns], device: &dyn Backend) -> Result<(), PipelineError> {
+    let mesh = |yarns| Pipeline::new(yarns).mesh(device).map(drop);
+    if let [yarns] = cloths {
+        return mesh(yarns);
     }
     thread::scope(|scope| {
-        let running: Vec<_> = (0..threads).map(|_| scope.spawn(mesh)).collect();
+        let running: Vec<_> = cloths.iter().map(|yarns| scope.spawn(move || mesh(yarns))).collect();
         running.into_iter().filter_map(|thread| thread.join().ok()).collect()
     })
 }

@@ -1,12 +1,13 @@
 """What Python adds to the time of a mesh, and of meshes in eight threads, beside Rust in one run.
 
     cargo build --release -p texere-bench --bin beside
+    pip install ./crates/texere-python
     python crates/texere-python/benches/overhead.py target/release/beside [ENDS PICKS ROUNDS]
 
 The cloth is a 3/1 twill with one control point at each crossing, as in the other benches, with the
 sides and subdivisions that Rust takes by default, on the device cpu. Each round has Rust, Python,
 Python and Rust make the mesh and free it. Prints the medians and the median of the rounds' ratios.
-Then eight threads each make a mesh of an eighth of the ends. Last comes the time of `import texere`
+Then eight threads make the meshes of eight cloths, each with about an eighth of the ends. Last comes the time of `import texere`
 after `import numpy`, in processes of their own.
 """
 
@@ -36,25 +37,26 @@ def seconds(work):
     return time.perf_counter() - start
 
 
-def compare(name, program, yarns, threads, rounds):
+def compare(name, program, cloths, rounds):
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "cloth.yarns"
-        yarns.write(file)
+        files = [Path(folder) / f"{number}.yarns" for number in range(len(cloths))]
+        for file, yarns in zip(files, cloths):
+            yarns.write(file)
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "bufsize": 1}
-        rust = subprocess.Popen([program, file], **pipes)
+        rust = subprocess.Popen([program, *files], **pipes)
         sides, subdivisions = map(int, rust.stdout.readline().split())
 
         def by_rust():
-            rust.stdin.write(f"{threads}\n")
+            rust.stdin.write(f"{len(cloths)}\n")
             return float(rust.stdout.readline())
 
-        def mesh():
+        def mesh(yarns):
             yarns.mesh(sides, subdivisions, device="cpu")
 
         def by_python():
-            if threads == 1:
-                return seconds(mesh)
-            running = [threading.Thread(target=mesh) for _ in range(threads)]
+            if len(cloths) == 1:
+                return seconds(lambda: mesh(cloths[0]))
+            running = [threading.Thread(target=mesh, args=[yarns]) for yarns in cloths]
 
             def work():
                 for thread in running:
@@ -95,9 +97,9 @@ def imported(names):
 def main():
     program = sys.argv[1]
     ends, picks, rounds = map(int, sys.argv[2:] or (815, 750, 9))
-    compare(f"{ends} x {picks}", program, twill(ends, picks), 1, rounds)
-    part = twill(ends // THREADS, picks)
-    compare(f"{THREADS} threads, {ends // THREADS} x {picks} each", program, part, THREADS, rounds)
+    compare(f"{ends} x {picks}", program, [twill(ends, picks)], rounds)
+    parts = [twill(ends // THREADS + number, picks - number) for number in range(THREADS)]
+    compare(f"{THREADS} threads, about {ends // THREADS} x {picks} each", program, parts, rounds)
     numpy, both = imported("numpy"), imported("numpy, texere")
     print(f"import numpy {1e3 * numpy:.0f} ms, then texere {1e3 * (both - numpy):.0f} ms")
 

@@ -29,8 +29,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Makes the mesh of each cloth, in a thread for each if there are several. The time includes giving the memory back, as it does
-/// where Python's last reference goes.
+/// Makes the mesh of each cloth, in a thread for each if there are several. The time includes
+/// giving the memory back, as it does where Python's last reference goes.
 fn made(cloths: &[Yarns], device: &dyn Backend) -> Result<(), PipelineError> {
     let mesh = |yarns| Pipeline::new(yarns).mesh(device).map(drop);
     if let [yarns] = cloths {

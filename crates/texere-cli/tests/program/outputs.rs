@@ -133,6 +133,10 @@ mod unix {
         }
     }
 
+    /// The endings of all files that `mesh` writes.
+    #[cfg(target_os = "linux")]
+    const ENDINGS: [&str; 7] = ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"];
+
     /// Old files of a cloth: those that `extension` has a writer of its own for, and a library of
     /// materials.
     fn old_files(folder: &Path, extension: &str) -> Vec<String> {
@@ -166,7 +170,7 @@ mod unix {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_full_disk_leaves_the_old_file_of_every_format() {
-        for extension in ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"] {
+        for extension in ENDINGS {
             let folder = tempfile::tempdir().unwrap();
             let before = old_files(folder.path(), extension);
             let name = format!("cloth.{extension}");
@@ -179,11 +183,32 @@ mod unix {
         }
     }
 
+    #[cfg(target_os = "linux")]
+    fn is_root() -> bool {
+        Command::new("id").arg("-u").output().unwrap().stdout == b"0\n"
+    }
+
+    /// Lets a user who is not root write the cloth of `plain.toml` to `name` in `folder`, which may
+    /// not succeed.
+    #[cfg(target_os = "linux")]
+    fn refused_to_nobody(program: &Path, folder: &Path, name: &str) {
+        let output = Command::new(program)
+            .args(["mesh", "plain.toml", "-o", name, "--device", "cpu"])
+            .current_dir(folder)
+            .uid(65534)
+            .gid(65534)
+            .output()
+            .unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{name}: {said}");
+        assert!(said.contains("Permission denied"), "{name}: {said}");
+    }
+
     /// Nobody but root may write into the folder.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_read_only_folder_keeps_the_old_file_of_every_format() {
-        if Command::new("id").arg("-u").output().unwrap().stdout != b"0\n" {
+        if !is_root() {
             // A folder of another user can't be made.
             return;
         }
@@ -193,21 +218,12 @@ mod unix {
         for path in [program.path(), folder.path()] {
             fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
         }
-        for extension in ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"] {
+        for extension in ENDINGS {
             let name = format!("cloth.{extension}");
             fs::write(folder.path().join(&name), "old").unwrap();
             fs::set_permissions(folder.path().join(&name), fs::Permissions::from_mode(0o666)).unwrap();
             let before = names(folder.path());
-            let output = Command::new(program.path().join("texere"))
-                .args(["mesh", "plain.toml", "-o", &name, "--device", "cpu"])
-                .current_dir(folder.path())
-                .uid(65534)
-                .gid(65534)
-                .output()
-                .unwrap();
-            assert_eq!(output.status.code(), Some(1), "{extension}: {}", stderr(&output));
-            let said = stderr(&output);
-            assert!(said.contains("Permission denied"), "{extension}: {said}");
+            refused_to_nobody(&program.path().join("texere"), folder.path(), &name);
             assert_eq!(names(folder.path()), before);
             assert_eq!(fs::read(folder.path().join(&name)).unwrap(), b"old");
         }
@@ -259,7 +275,7 @@ mod unix {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_that_its_user_may_not_write_is_not_replaced() {
-        if Command::new("id").arg("-u").output().unwrap().stdout != b"0\n" {
+        if !is_root() {
             // A file of another user can't be made.
             return;
         }
@@ -272,15 +288,7 @@ mod unix {
         for (name, mode) in [("cloth.ply", 0o644), (".", 0o777), ("texere", 0o755)] {
             fs::set_permissions(at(name), fs::Permissions::from_mode(mode)).unwrap();
         }
-        let output = Command::new(at("texere"))
-            .args(["mesh", "plain.toml", "-o", "cloth.ply", "--device", "cpu"])
-            .current_dir(folder.path())
-            .uid(65534)
-            .gid(65534)
-            .output()
-            .unwrap();
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        assert!(stderr(&output).contains("Permission denied"), "{}", stderr(&output));
+        refused_to_nobody(&at("texere"), folder.path(), "cloth.ply");
         assert_eq!(fs::read(at("cloth.ply")).unwrap(), b"root's");
         assert_eq!(names(folder.path()), ["cloth.ply", "plain.toml", "texere"]);
     }

@@ -71,7 +71,7 @@ fn pass(settler: &mut dyn Settler, last: Option<usize>) -> usize {
 fn settlings_are_broken_off_within_a_pass() {
     for device in devices() {
         let asked = [1, 4].map(|times| {
-            let plan = zigzags(4 * times * threads());
+            let plan = zigzags(16 * times * threads());
             let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
             settler.upload(&places(&plan)).expect("an upload");
             let lists = list(settler.as_mut(), None);
@@ -101,7 +101,7 @@ fn settlings_are_broken_off_within_a_pass() {
 #[test]
 fn settlings_that_are_broken_off_leave_the_places_that_they_kept() {
     for device in devices() {
-        let plan = zigzags(4 * threads());
+        let plan = zigzags(16 * threads());
         for last in [1, 2, 30, 200] {
             let mut settler = device.settler(Arc::clone(&plan)).expect("a settler");
             let (mut within, mut whole) = (0, 0);

@@ -4,8 +4,11 @@ use std::ops::{ControlFlow, Range};
 
 use texere_core::backend::WorkWatch;
 
-/// The number of tasks of each thread between two questions.
-const TASKS: usize = 4;
+/// The number of tasks of each thread between two questions. Threads wait for one another before a
+/// question: on two cores a knit of 60 x 60 stitches took 2 % longer to rest with 16 tasks than
+/// without questions, 4 % with 8, 7 % with 4 and 15 % with 1. A wish to stop was heard within 7 ms
+/// with 16, and within a whole pass, up to 43 ms, without. `broken_off.rs` fails without questions.
+const TASKS: usize = 16;
 
 /// The size of a part that gives every thread of the pool a few tasks of size `task`.
 pub(crate) fn for_all_threads(task: usize) -> usize {

@@ -24,7 +24,7 @@ impl ParallelCrossings {
         let CrossingsMemory { plan, crossings, found, next } = &mut self.0;
         let (plan, found) = (&**plan, found.as_slice());
         let mut seen = CrossingsSeen::NOTHING;
-        in_parts(crossings.len(), for_all_threads(8 * TASK), watch, |part| {
+        in_parts(crossings.len(), for_all_threads(2 * TASK), watch, |part| {
             let from = part.start;
             let next = next[part.clone()].par_chunks_mut(TASK);
             let tasks = crossings[part].par_chunks_mut(TASK).zip(next).enumerate();

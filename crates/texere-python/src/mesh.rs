@@ -1,6 +1,6 @@
 //! Meshes: vertices and triangles of tubes, as arrays.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use bytemuck::cast_slice;
@@ -9,6 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use texere::mesh::Attribute;
+use texere::write::Output;
 use texere::{Backend, Pipeline, Settings};
 
 use crate::arrays::view;
@@ -194,17 +195,22 @@ impl Mesh {
     }
 
     /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
-    /// not at all. It is made again while it is written, piece by piece.
+    /// not at all. It is made again while it is written, piece by piece. ``packed`` halves a
+    /// ``.glb``, with whole numbers for positions and normals: positions are off by 1/131068 of a
+    /// yarn's length at most.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
-    /// Raises :class:`texere.Error` for another ending, and for a file that can't be written.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    /// Raises :class:`texere.Error` for another ending, and for a file that can't be written or
+    /// packed.
+    #[pyo3(signature = (path, *, packed=false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool) -> PyResult<()> {
+        let output = output(&path, packed);
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
-            texere::write::stream(pipeline, &*self.device, path).map(|_| ())
+            texere::write::stream(pipeline, &*self.device, output).map(|_| ())
         })
     }
 
@@ -267,4 +273,10 @@ fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bou
     let words = ArrayView2::from_shape((attributes.len(), WORDS), cast_slice(attributes)).raise(slf.py())?;
     // SAFETY: attributes are made once, and never change.
     unsafe { view(slf.as_any(), words.slice(s![.., first..end])) }
+}
+
+/// The file that a mesh is written to.
+pub(crate) fn output(path: &Path, packed: bool) -> Output {
+    let output = Output::to(path);
+    if packed { output.packed() } else { output }
 }

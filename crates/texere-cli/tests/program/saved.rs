@@ -14,12 +14,12 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
         fs::write(&design, text).unwrap();
         let said = stdout(&texere(&["mesh", &design, "--device", "cpu", "-o", &saved]));
         assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
-        for ending in ["ply", "glb"] {
+        for (ending, option) in [("ply", "--caps"), ("glb", "--caps"), ("glb", "--packed")] {
             let [own, other] = ["own", "other"].map(|which| path(&format!("{name}-{which}.{ending}")));
             for (input, output) in [(&design, &own), (&saved, &other)] {
-                stdout(&texere(&["mesh", input, "--device", "cpu", "--caps", "-o", output]));
+                stdout(&texere(&["mesh", input, "--device", "cpu", option, "-o", output]));
             }
-            assert!(fs::read(own).unwrap() == fs::read(other).unwrap(), "{name}: another {ending}");
+            assert!(fs::read(own).unwrap() == fs::read(other).unwrap(), "{name}: another {ending}, {option}");
         }
         let again = path(&format!("{name}-again.yarns"));
         // Nothing settles here, so a device that does not exist is not missed.
@@ -80,7 +80,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 17] = [
+    let cases: [(&[&str], i32, &str); 19] = [
         (&["inspect", &saved], 3, alone),
         (&["check", &saved], 3, alone),
         (&["draft", &saved, "--text"], 3, alone),
@@ -93,6 +93,8 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         ),
         (&["mesh", &saved, "-o", &ply, "--section", "circle"], 2, "--section needs a design"),
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
+        (&["mesh", &saved, "-o", &other, "--packed"], 2, "--packed needs a mesh"),
+        (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
         (&["mesh", &design, "-o", &other, "--sides", "9"], 2, "--sides needs a mesh"),
         (&["mesh", &saved, "-o", &path("cloth.usda"), "--sides", "9"], 2, "--sides needs a mesh"),
         (

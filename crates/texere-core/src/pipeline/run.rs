@@ -171,7 +171,30 @@ impl<'a> Run<'a> {
     pub fn stream<B>(
         mut self,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, PipelineError> {
+        self.pieces(chunks, sink, Self::advance)
+    }
+
+    /// Makes the mesh of `chunks` piece by piece as [`Run::stream`] does, for a program that has to
+    /// see all of it before it can use any of it, such as one that looks for its bounds. The rings
+    /// don't count as delivered. The run can then make the mesh again.
+    ///
+    /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
+    pub fn survey<B>(
+        &mut self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
+        sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, PipelineError> {
+        self.pieces(chunks, sink, |run, _| run.report())
+    }
+
+    /// Makes the mesh of `chunks` piece by piece, and calls `done` after each chunk.
+    fn pieces<B>(
+        &mut self,
+        chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         mut sink: impl FnMut(&Chunk, MeshPiece<'_>) -> ControlFlow<B>,
+        done: impl Fn(&mut Self, &Chunk) -> Result<(), PipelineError>,
     ) -> Result<ControlFlow<B>, PipelineError> {
         let mut chunks = chunks.into_iter();
         let mut waiting = chunks.next();
@@ -195,7 +218,7 @@ impl<'a> Run<'a> {
             if let Some(value) = answer {
                 return Ok(ControlFlow::Break(value));
             }
-            self.advance(chunk)?;
+            done(self, chunk)?;
         }
         Ok(ControlFlow::Continue(()))
     }

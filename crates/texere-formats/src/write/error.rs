@@ -70,6 +70,19 @@ pub enum WriteError {
         /// The most bytes that the format can have.
         limit: u64,
     },
+    /// Packed positions have 16 bits, whose steps would be too long for this yarn. A plain GLB has
+    /// no such limit.
+    #[error(
+        "yarn {yarn} takes {length_mm} mm of the cloth, but packed GLB holds {limit_mm} mm of a yarn; write plain GLB"
+    )]
+    TooLongToPack {
+        /// The yarn, counted from 0.
+        yarn: usize,
+        /// The largest side of the box that the yarn lies in, mm.
+        length_mm: f32,
+        /// The largest side that can be packed, mm.
+        limit_mm: f32,
+    },
     /// PLY numbers vertices with 32 bits, and programs that read OBJ number them with 31. Fewer
     /// sides or subdivisions make fewer vertices.
     #[error(

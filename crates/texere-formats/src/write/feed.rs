@@ -7,6 +7,7 @@ use std::io::{Seek, Write};
 use texere_core::backend::{Chunk, Plan};
 use texere_core::{Material, Vertex};
 
+use super::bounds::Bounds;
 #[cfg(feature = "glb")]
 use super::glb::GlbWriter;
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};
@@ -27,10 +28,13 @@ fn writer<'a, W: Write + Seek + 'a>(
     plan: &'a Plan,
     chunks: impl Iterator<Item = impl Borrow<Chunk>>,
     materials: &'a [Material],
+    bounds: Option<&Bounds>,
 ) -> Result<Box<dyn MeshWriter<W> + 'a>, WriteError> {
     match format {
         #[cfg(feature = "glb")]
-        Format::Glb => Ok(Box::new(GlbWriter::start(target, plan, chunks, materials)?)),
+        Format::Glb | Format::PackedGlb => {
+            Ok(Box::new(GlbWriter::start(target, plan, chunks, materials, bounds)?))
+        }
         #[cfg(feature = "ply")]
         Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials)?)),
         #[cfg(feature = "stl")]
@@ -55,13 +59,15 @@ pub(super) struct Feed<'a, W: Write + Seek> {
 }
 
 impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
-    /// Starts a file for the mesh of `plan`, cut into `chunks`.
+    /// Starts a file for the mesh of `plan`, cut into `chunks`. A packed format needs the `bounds`
+    /// of all yarns. Others have none.
     pub(super) fn open(
         format: Format,
         target: Target<W>,
         plan: &'a Plan,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
         materials: &'a [Material],
+        bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
         for (yarn, each) in plan.layout().yarns().iter().enumerate() {
             if each.material as usize >= materials.len() {
@@ -74,7 +80,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         }
         let mut planned = 0;
         let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
-        let writer = writer(format, target, plan, &mut chunks, materials)?;
+        let writer = writer(format, target, plan, &mut chunks, materials, bounds)?;
         // Chunks that the writer has not gone through count as well.
         chunks.for_each(drop);
         if planned < plan.counts().vertices {

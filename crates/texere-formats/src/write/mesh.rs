@@ -3,10 +3,11 @@
 use std::io::{Seek, Write};
 use std::ops::ControlFlow;
 
-use texere_core::backend::Run;
+use texere_core::backend::{Chunk, Run};
 use texere_core::{Backend, Material, Mesh, MeshPiece, Pipeline, PipelineError, Topology};
 
 use super::beside::Beside;
+use super::bounds::Bounds;
 use super::feed::Feed;
 use super::target::Target;
 use super::{Format, Output, WriteError};
@@ -47,7 +48,7 @@ pub struct Written {
 /// ```
 pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     let output = output.into();
-    let format = Format::from_path(output.path())?;
+    let format = output.format()?;
     let beside = Beside::of(format, &output, &mesh.materials)?;
     let target = whole(mesh, format, || Target::create(output))?;
     beside.commit(target)?;
@@ -84,7 +85,12 @@ fn whole<W: Write + Seek>(
     format: Format,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<Target<W>, WriteError> {
-    let mut feed = Feed::open(format, start()?, &mesh.plan, &mesh.chunks, &mesh.materials)?;
+    let bounds = match format {
+        Format::PackedGlb => Some(bounds(mesh)?),
+        _ => None,
+    };
+    let target = start()?;
+    let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
         return Err(WriteError::VertexCount { given, planned });
@@ -122,7 +128,7 @@ pub fn stream(
     output: impl Into<Output>,
 ) -> Result<Written, WriteError> {
     let output = output.into();
-    Format::from_path(output.path())?;
+    output.format()?;
     output.check()?;
     let materials = pipeline.yarns().materials().clone();
     run(pipeline.topology(Topology::Shared).into_run(device)?, &materials, output)
@@ -187,7 +193,7 @@ pub fn stream_to(
 /// ```
 pub fn run(run: Run<'_>, materials: &[Material], output: impl Into<Output>) -> Result<Written, WriteError> {
     let output = output.into();
-    let format = Format::from_path(output.path())?;
+    let format = output.format()?;
     let beside = Beside::of(format, &output, materials)?;
     let (target, written) = streamed(run, materials, format, || Target::create(output))?;
     Ok(Written { bytes: beside.commit(target)?, ..written })
@@ -210,14 +216,19 @@ pub fn run_to(
 /// Writes the mesh of a run to the target that `start` gives. Returns the target, which the caller
 /// completes, and how much was written, with 0 for the bytes.
 fn streamed<W: Write + Seek>(
-    run: Run<'_>,
+    mut run: Run<'_>,
     materials: &[Material],
     format: Format,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<(Target<W>, Written), WriteError> {
     let (plan, limits) = (run.plan().clone(), run.limits());
     let chunks = || plan.chunks(&limits).map_err(PipelineError::from);
-    let mut feed = Feed::open(format, start()?, &plan, chunks()?, materials)?;
+    let target = start()?;
+    let bounds = match format {
+        Format::PackedGlb => Some(survey(&mut run, chunks()?)?),
+        _ => None,
+    };
+    let mut feed = Feed::open(format, target, &plan, chunks()?, materials, bounds.as_ref())?;
     let answer = run.stream(chunks()?, |chunk, piece| {
         let fed = match piece {
             MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),
@@ -234,4 +245,29 @@ fn streamed<W: Write + Seek>(
     let counts = plan.counts();
     let written = Written { bytes: 0, vertices: counts.vertices, triangles: counts.triangles };
     Ok((feed.finish()?, written))
+}
+
+/// The boxes of the yarns of a mesh in memory.
+fn bounds(mesh: &Mesh) -> Result<Bounds, WriteError> {
+    let mut bounds = Bounds::new(&mesh.plan)?;
+    let mut left = &mesh.vertices[..];
+    for chunk in &mesh.chunks {
+        // A mesh of too few vertices is refused later.
+        let (vertices, others) = left.split_at((chunk.vertices() as usize).min(left.len()));
+        bounds.include(chunk, 0, vertices);
+        left = others;
+    }
+    Ok(bounds)
+}
+
+/// The boxes of the yarns of a run, which makes its whole mesh for them.
+fn survey(run: &mut Run<'_>, chunks: impl IntoIterator<Item = Chunk>) -> Result<Bounds, WriteError> {
+    let mut bounds = Bounds::new(run.plan())?;
+    let _ = run.survey(chunks, |chunk, piece| {
+        if let MeshPiece::Vertices { first, vertices } = piece {
+            bounds.include(chunk, first, vertices);
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    Ok(bounds)
 }

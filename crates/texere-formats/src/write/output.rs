@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 
-use super::WriteError;
+use super::{Format, WriteError};
 
 /// The target of a write, and the files that it must not replace, such as those that the design was
 /// read from.
@@ -27,13 +27,14 @@ use super::WriteError;
 pub struct Output {
     path: PathBuf,
     spared: Vec<PathBuf>,
+    packed: bool,
 }
 
 impl Output {
     /// A file at `path`. If `path` is a symbolic link, the output is the file that the link leads
     /// to.
     pub fn to(path: impl AsRef<Path>) -> Self {
-        Self { path: path.as_ref().to_owned(), spared: Vec::new() }
+        Self { path: path.as_ref().to_owned(), spared: Vec::new(), packed: false }
     }
 
     /// Does not replace any of `files`, even under another name: another spelling, a hard link or a
@@ -43,6 +44,45 @@ impl Output {
     pub fn sparing(mut self, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Self {
         self.spared.extend(files.into_iter().map(|file| file.as_ref().to_owned()));
         self
+    }
+
+    /// Packs a mesh as [`Format::PackedGlb`]. The path has to end in `.glb`.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_formats::write::{self, Output};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let [plain, packed] = ["plain.glb", "packed.glb"].map(|name| folder.path().join(name));
+    /// let mut yarns = Yarns::builder();
+    /// let points: Vec<_> = (0..200).map(|step| ControlPoint::new(step as f32, 0.0, 0.0, 0.1)).collect();
+    /// yarns.yarn(Yarn::default(), &points);
+    /// let mesh = Pipeline::new(&yarns.build()?).sides(12).mesh(&ParallelBackend::open()?)?;
+    /// write::mesh(&mesh, &plain)?;
+    /// write::mesh(&mesh, Output::to(&packed).packed())?;
+    /// let [plain, packed] = [plain, packed].map(|file| std::fs::metadata(file).unwrap().len());
+    /// assert!(packed < plain);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn packed(mut self) -> Self {
+        self.packed = true;
+        self
+    }
+
+    /// The format of a mesh at this output.
+    ///
+    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] if the format can't
+    /// be packed.
+    pub(super) fn format(&self) -> Result<Format, WriteError> {
+        match (Format::from_path(&self.path), self.packed) {
+            (format, false) => format,
+            (Ok(Format::Glb), true) => Ok(Format::PackedGlb),
+            _ => Err(WriteError::NotEnding {
+                path: self.path.clone(),
+                expected: Format::PackedGlb.extension(),
+            }),
+        }
     }
 
     /// The path as it was given.
@@ -55,16 +95,20 @@ impl Output {
     /// not.
     #[cfg(feature = "obj")]
     pub(super) fn beside(&self, extension: &str) -> Self {
-        Self { path: self.path.with_extension(extension), spared: self.spared.clone() }
+        Self { path: self.path.with_extension(extension), spared: self.spared.clone(), packed: false }
     }
 
     /// Checks whether a file may be written at the path now. The check is meant for a program that
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if
-    /// the path is not a file that may be replaced, or if a spared file can't be looked at.
+    /// **Errors**: [`WriteError::NotEnding`] for a packed output that is no `.glb` file,
+    /// [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
+    /// file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
+        if self.packed {
+            self.format()?;
+        }
         self.clone().place().map(drop)
     }
 

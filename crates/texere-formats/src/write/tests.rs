@@ -8,6 +8,7 @@ use tempfile::NamedTempFile;
 use texere_core::{ControlPoint, Limits, Material, Mesh, Pipeline, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 
+use super::bounds::Bounds;
 use super::feed::Feed;
 use super::target::Target;
 use super::{Format, WriteError};
@@ -47,8 +48,9 @@ fn mesh() -> Mesh {
     for (count, material) in [(4001, [200, 30, 30]), (9, [30, 30, 200])] {
         let srgb = material;
         let material = yarns.material(Material { srgb, ..Material::default() });
-        let points: Vec<_> =
-            (0..count).map(|step| ControlPoint::new(step as f32, (step % 3) as f32, 0.0, 0.1)).collect();
+        let points: Vec<_> = (0..count)
+            .map(|step| ControlPoint::new(0.1 * step as f32, 0.1 * (step % 3) as f32, 0.0, 0.1))
+            .collect();
         yarns.yarn(Yarn { material, ..Yarn::default() }, &points);
     }
     let yarns = yarns.build().unwrap();
@@ -61,7 +63,16 @@ fn mesh() -> Mesh {
 /// by which the file takes its place, is left out.
 fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Failing, WriteError> {
     let target = Target::over(out, 0, Some("fabric".into()));
-    let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials)?;
+    let mut bounds = Bounds::new(&mesh.plan)?;
+    for chunk in &mesh.chunks {
+        bounds.include(
+            chunk,
+            0,
+            &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize],
+        );
+    }
+    let bounds = (format == Format::PackedGlb).then_some(&bounds);
+    let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds)?;
     for chunk in &mesh.chunks {
         let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
         for (number, vertices) in own.chunks(piece).enumerate() {
@@ -79,7 +90,7 @@ fn a_full_disk_is_an_error_at_any_byte() {
     let folder = tempfile::tempdir().unwrap();
     let on_disk = |room| Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room };
     let mesh = mesh();
-    for format in Format::ALL {
+    for format in Format::ALL.into_iter().chain([Format::PackedGlb]) {
         let plenty = 1 << 30;
         let needed = plenty - write(&mesh, format, usize::MAX, on_disk(plenty)).unwrap().room;
         for room in (0..needed).step_by(100_003).chain([1, 11, 12, needed - 1]) {
@@ -98,7 +109,7 @@ fn a_full_disk_is_an_error_at_any_byte() {
 fn pieces_of_any_size_give_the_same_file() {
     let mesh = mesh();
     let folder = tempfile::tempdir().unwrap();
-    for format in Format::ALL {
+    for format in Format::ALL.into_iter().chain([Format::PackedGlb]) {
         let file = |piece| {
             let out = Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room: usize::MAX };
             fs::read(write(&mesh, format, piece, out).unwrap().file.path()).unwrap()
@@ -115,7 +126,7 @@ fn a_piece_out_of_order_is_refused() {
     let mesh = mesh();
     let out = Failing { file: NamedTempFile::new().unwrap(), room: usize::MAX };
     let target = Target::over(out, 0, Some("fabric".into()));
-    let mut feed = Feed::open(Format::Ply, target, &mesh.plan, &mesh.chunks, &mesh.materials).unwrap();
+    let mut feed = Feed::open(Format::Ply, target, &mesh.plan, &mesh.chunks, &mesh.materials, None).unwrap();
     feed.vertices(&mesh.chunks[0], 0, &mesh.vertices[..6]).unwrap();
     let error = feed.vertices(&mesh.chunks[0], 12, &mesh.vertices[12..18]).unwrap_err();
     assert!(matches!(error, WriteError::VertexCount { given: 6, .. }), "{error:?}");

@@ -50,8 +50,9 @@ pub(crate) fn fabric() -> Yarns {
 /// One yarn with more gaps between rings than the index pattern of [`Topology::Shared`] covers.
 pub(crate) fn long_yarn() -> Yarns {
     let mut yarns = Yarns::builder();
-    let points: Vec<_> =
-        (0..4200).map(|step| ControlPoint::new(step as f32, (step % 5) as f32, 0.0, 0.2)).collect();
+    let points: Vec<_> = (0..4200)
+        .map(|step| ControlPoint::new(0.1 * step as f32, 0.1 * (step % 5) as f32, 0.0, 0.2))
+        .collect();
     yarns.yarn(Yarn { origin: Origin::Carrier(3), ..Yarn::default() }, &points);
     yarns.build().unwrap()
 }

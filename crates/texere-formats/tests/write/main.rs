@@ -9,6 +9,7 @@ mod glb;
 mod knit_draft;
 mod obj;
 mod outputs;
+mod packed;
 mod pieces;
 mod ply;
 mod random_designs;

@@ -3,13 +3,14 @@
 
 import { readFileSync } from 'node:fs';
 import { NodeIO } from '@gltf-transform/core';
+import { KHRMeshQuantization } from '@gltf-transform/extensions';
 import validator from 'gltf-validator';
 
 const path = process.argv[2];
 const bytes = new Uint8Array(readFileSync(path));
 const report = await validator.validateBytes(bytes, { uri: path, maxIssues: 100 });
 
-const document = await new NodeIO().readBinary(bytes);
+const document = await new NodeIO().registerExtensions([KHRMeshQuantization]).readBinary(bytes);
 const yarns = [];
 for (const node of document.getRoot().listNodes()) {
   const matrix = node.getWorldMatrix();

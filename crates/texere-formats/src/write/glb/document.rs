@@ -10,10 +10,11 @@ use texere_core::backend::{Chunk, Plan};
 use texere_core::definitions::index_pattern;
 use texere_core::{End, Material, Origin, Vertex};
 
+use super::grid::{Grid, PackedBytes};
 use super::json::Json;
 use super::schema::{
-    self, ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Gltf,
-    MetallicRoughness, Node, Primitive, Scene, UNSIGNED_INT,
+    self, ARRAY_BUFFER, Accessor, Asset, Attributes, BYTE, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT,
+    Gltf, MetallicRoughness, Node, Primitive, SHORT, Scene, UNSIGNED_INT,
 };
 use crate::write::WriteError;
 use crate::write::places::Places;
@@ -26,7 +27,9 @@ const PATTERN: usize = 0;
 const VERTICES: usize = 1;
 
 const INDEX_BYTES: u64 = size_of::<u32>() as u64;
-const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
+
+/// The extension that allows positions of 16-bit and normals of 8-bit numbers.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
@@ -110,25 +113,29 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
 }
 
 impl Document {
-    /// Describes the mesh of `plan`, cut into `chunks`.
+    /// Describes the mesh of `plan`, cut into `chunks`. With `grids`, one for each yarn, vertices
+    /// are packed.
     pub(super) fn new(
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
+        grids: Option<&[Grid]>,
     ) -> Self {
         let yarns = plan.layout().yarns();
         let mut meshes: Vec<_> = (yarns.iter().enumerate())
             .map(|(number, yarn)| schema::Mesh { name: name(number, yarn.origin), primitives: Vec::new() })
+            .zip(0..)
             .collect();
+        let vertex_form = if grids.is_some() { VertexForm::PACKED } else { VertexForm::PLAIN };
         let (shapes, gaps) = shapes(plan, chunks);
-        let mut accessors: Vec<_> = shapes.iter().flat_map(vertex_accessors).collect();
+        let mut accessors: Vec<_> = shapes.iter().flat_map(|shape| vertex_form.accessors(shape)).collect();
         let mut patterns = HashMap::new();
         for (number, shape) in shapes.iter().enumerate() {
             let indices = *patterns.entry(shape.indices.clone()).or_insert_with(|| {
                 accessors.push(index_accessor(shape));
                 accessors.len() - 1
             });
-            meshes[shape.yarn as usize].primitives.push(Primitive {
+            meshes[shape.yarn as usize].0.primitives.push(Primitive {
                 attributes: Attributes { position: 2 * number, normal: 2 * number + 1 },
                 indices,
                 material: yarns[shape.yarn as usize].material,
@@ -136,17 +143,21 @@ impl Document {
         }
         // If only a box of the cloth is written, some yarns may lie outside the box. They get no
         // mesh, because a mesh in glTF needs triangles.
-        meshes.retain(|mesh| !mesh.primitives.is_empty());
+        meshes.retain(|(mesh, _)| !mesh.primitives.is_empty());
+        let nodes = nodes(&meshes, grids);
         let sides = u64::from(plan.settings().sides);
         let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
         let pattern = gaps * sides * 6 + ends * (sides - 2) * 3;
-        let views = buffer_views(pattern * INDEX_BYTES, plan.counts().vertices * VERTEX_BYTES);
+        let views = buffer_views(pattern * INDEX_BYTES, plan.counts().vertices, vertex_form.bytes);
+        let extensions = Vec::from_iter(grids.is_some().then_some(QUANTIZATION));
         let gltf = Gltf {
             asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },
+            extensions_used: extensions.clone(),
+            extensions_required: extensions,
             scene: 0,
             scenes: [Scene { nodes: [0] }],
-            nodes: nodes(&meshes),
-            meshes,
+            nodes,
+            meshes: meshes.into_iter().map(|(mesh, _)| mesh).collect(),
             materials: materials.iter().map(surface).collect(),
             accessors,
             buffers: [Buffer { byte_length: views.iter().map(|view| view.byte_length).sum() }],
@@ -184,7 +195,7 @@ impl Document {
     }
 
     /// Widens the bounds of the shapes that `vertices` belong to. `vertices` are those of the file
-    /// from number `first` on.
+    /// from number `first` on. Their positions are in mm, or in steps of their yarn's grid.
     pub(super) fn include(&mut self, first: u64, vertices: &[Vertex]) {
         let end = first + vertices.len() as u64;
         let start = self.shapes.partition_point(|shape| shape.vertices.end <= first);
@@ -224,19 +235,25 @@ fn name(number: usize, origin: Origin) -> String {
     }
 }
 
-/// A node for each mesh, under a node that turns millimetres into metres.
-fn nodes(meshes: &[schema::Mesh]) -> Vec<Node> {
+/// A node for each mesh, under a node that turns millimetres into metres. Each mesh has the number
+/// of its yarn. With `grids`, its node turns steps into millimetres.
+fn nodes(meshes: &[(schema::Mesh, usize)], grids: Option<&[Grid]>) -> Vec<Node> {
     let root = Node {
         name: "fabric".into(),
         mesh: None,
+        translation: None,
         scale: Some([MILLIMETRE; 3]),
         children: (1..=meshes.len()).collect(),
     };
-    let yarns = meshes.iter().enumerate().map(|(mesh, yarn)| Node {
-        name: yarn.name.clone(),
-        mesh: Some(mesh),
-        scale: None,
-        children: Vec::new(),
+    let yarns = meshes.iter().enumerate().map(|(mesh, (of_yarn, yarn))| {
+        let grid = grids.and_then(|grids| grids.get(*yarn));
+        Node {
+            name: of_yarn.name.clone(),
+            mesh: Some(mesh),
+            translation: grid.map(|grid| grid.middle),
+            scale: grid.map(|grid| [grid.step; 3]),
+            children: Vec::new(),
+        }
     });
     std::iter::once(root).chain(yarns).collect()
 }
@@ -253,20 +270,50 @@ fn surface(material: &Material) -> schema::Material {
     }
 }
 
-/// The accessors of positions and normals of a shape. At first the minimum is the largest number
-/// and the maximum the smallest, so that the first vertex sets both.
-fn vertex_accessors(shape: &Shape) -> [Accessor; 2] {
-    let of = |offset, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
-        buffer_view: VERTICES,
-        byte_offset: shape.vertices.start * VERTEX_BYTES + offset,
-        component_type: FLOAT,
-        count: shape.vertices.end - shape.vertices.start,
-        shape: "VEC3",
-        min,
-        max,
+/// How vertices are stored.
+#[derive(Debug, Clone, Copy)]
+struct VertexForm {
+    /// Bytes of a vertex, and of what comes before its normal.
+    bytes: u64,
+    normal_at: u64,
+    /// The kinds of numbers of positions and of normals.
+    kinds: [u32; 2],
+    /// Whether whole numbers of a normal stand for shares of 1.
+    normalized: Option<bool>,
+}
+
+impl VertexForm {
+    const PLAIN: Self = Self {
+        bytes: size_of::<Vertex>() as u64,
+        normal_at: std::mem::offset_of!(Vertex, normal) as u64,
+        kinds: [FLOAT; 2],
+        normalized: None,
     };
-    let inside_out = [f32::MAX, f32::MIN].map(|bound| Some([bound; 3]));
-    [of(0, inside_out), of(std::mem::offset_of!(Vertex, normal) as u64, [None; 2])]
+
+    const PACKED: Self = Self {
+        bytes: size_of::<PackedBytes>() as u64,
+        normal_at: 8,
+        kinds: [SHORT, BYTE],
+        normalized: Some(true),
+    };
+
+    /// The accessors of positions and normals of a shape. At first the minimum is the largest
+    /// number and the maximum the smallest, so that the first vertex sets both.
+    fn accessors(self, shape: &Shape) -> [Accessor; 2] {
+        let of = |offset, kind, normalized, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
+            buffer_view: VERTICES,
+            byte_offset: shape.vertices.start * self.bytes + offset,
+            component_type: kind,
+            normalized,
+            count: shape.vertices.end - shape.vertices.start,
+            shape: "VEC3",
+            min,
+            max,
+        };
+        let inside_out = [f32::MAX, f32::MIN].map(|bound| Some([bound; 3]));
+        let [positions, normals] = self.kinds;
+        [of(0, positions, None, inside_out), of(self.normal_at, normals, self.normalized, [None; 2])]
+    }
 }
 
 fn index_accessor(shape: &Shape) -> Accessor {
@@ -274,6 +321,7 @@ fn index_accessor(shape: &Shape) -> Accessor {
         buffer_view: PATTERN,
         byte_offset: shape.indices.start * INDEX_BYTES,
         component_type: UNSIGNED_INT,
+        normalized: None,
         count: shape.indices.end - shape.indices.start,
         shape: "SCALAR",
         min: None,
@@ -281,7 +329,7 @@ fn index_accessor(shape: &Shape) -> Accessor {
     }
 }
 
-fn buffer_views(pattern_bytes: u64, vertices_bytes: u64) -> [BufferView; 2] {
+fn buffer_views(pattern_bytes: u64, vertices: u64, vertex_bytes: u64) -> [BufferView; 2] {
     let pattern = BufferView {
         buffer: 0,
         byte_offset: 0,
@@ -292,8 +340,8 @@ fn buffer_views(pattern_bytes: u64, vertices_bytes: u64) -> [BufferView; 2] {
     let vertices = BufferView {
         buffer: 0,
         byte_offset: pattern_bytes,
-        byte_length: vertices_bytes,
-        byte_stride: Some(VERTEX_BYTES),
+        byte_length: vertices * vertex_bytes,
+        byte_stride: Some(vertex_bytes),
         target: ARRAY_BUFFER,
     };
     // In the order of PATTERN and VERTICES.

@@ -66,6 +66,12 @@ macro_rules! whole_numbers {
 }
 whole_numbers!(u32, u64, usize);
 
+impl Json for bool {
+    fn write(&self, text: &mut String) {
+        text.push_str(if *self { "true" } else { "false" });
+    }
+}
+
 impl Json for f32 {
     /// Every float takes fifteen bytes, which hold a sign, nine digits, a point, and an exponent of
     /// four bytes. Spaces fill up a shorter number in front, which JSON allows.

@@ -3,6 +3,7 @@
 //! Source: Khronos Group, "glTF 2.0 Specification", section 4.4 for the container.
 
 mod document;
+mod grid;
 mod json;
 mod schema;
 
@@ -10,11 +11,13 @@ use std::borrow::Borrow;
 use std::io::{Seek, Write};
 
 use document::Document;
+use grid::{Grid, PackedBytes};
 use texere_core::backend::{Chunk, Plan};
 use texere_core::{Material, Vertex};
 
 use super::WriteError;
-use super::mesh_writer::{MeshWriter, Run};
+use super::bounds::Bounds;
+use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 use super::places::Places;
 use super::target::Target;
 
@@ -27,6 +30,9 @@ const HEADER_BYTES: u64 = 12;
 /// Bytes of a chunk's header: length and type of the chunk.
 const CHUNK_HEADER_BYTES: u64 = 8;
 
+/// Vertices that are packed at a time: their copies take 150 kB.
+const BATCH: usize = 4096;
+
 /// A GLB file that is being written.
 ///
 /// The document comes first in the file, but states the bounds of every tube and cap, which are
@@ -38,18 +44,25 @@ pub(super) struct GlbWriter<W: Write + Seek> {
     document: Document,
     /// The byte at which the vertices begin.
     vertices_at: u64,
+    sides: u32,
+    /// The grid of each yarn, if vertices are packed.
+    grids: Option<Vec<Grid>>,
 }
 
 impl<W: Write + Seek> GlbWriter<W> {
+    /// Starts a file. With `bounds`, the boxes of all yarns, vertices are packed.
     pub(super) fn start(
         mut target: Target<W>,
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
+        bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
         // The size is checked first, because there may be millions of chunks to go through.
-        check(plan.counts().vertices * size_of::<Vertex>() as u64)?;
-        let document = Document::new(plan, chunks, materials);
+        let vertex_bytes = if bounds.is_some() { size_of::<PackedBytes>() } else { size_of::<Vertex>() };
+        check(plan.counts().vertices * vertex_bytes as u64)?;
+        let grids = bounds.map(Grid::all).transpose()?;
+        let document = Document::new(plan, chunks, materials, grids.as_deref());
         check(document.buffer_bytes())?;
         let json = document.to_json();
         let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
@@ -62,15 +75,28 @@ impl<W: Write + Seek> GlbWriter<W> {
         target.write(b"BIN\0")?;
         document.write_pattern(plan, &mut target)?;
         let vertices_at = target.position();
-        Ok(Self { target, document, vertices_at })
+        Ok(Self { target, document, vertices_at, sides: plan.settings().sides, grids })
     }
 }
 
 impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
-        self.document.include(run.place, run.vertices);
-        self.target.go_to(self.vertices_at + run.place * size_of::<Vertex>() as u64)?;
-        self.target.write_words(bytemuck::cast_slice(run.vertices))
+        let Some(grids) = &self.grids else {
+            self.document.include(run.place, run.vertices);
+            self.target.go_to(self.vertices_at + run.place * size_of::<Vertex>() as u64)?;
+            return self.target.write_words(bytemuck::cast_slice(run.vertices));
+        };
+        self.target.go_to(self.vertices_at + run.place * size_of::<PackedBytes>() as u64)?;
+        for (yarn, own) in yarn_runs(run.chunk, self.sides, run.first, run.vertices.len()) {
+            let (grid, mut place) = (&grids[yarn as usize], run.place + own.start as u64);
+            for vertices in run.vertices[own].chunks(BATCH) {
+                let stepped: Vec<_> = vertices.iter().map(|vertex| grid.stepped(vertex)).collect();
+                self.document.include(place, &stepped);
+                self.target.write(stepped.iter().map(grid::packed).collect::<Vec<_>>().as_flattened())?;
+                place += vertices.len() as u64;
+            }
+        }
+        Ok(())
     }
 
     /// Nothing is left to write: all triangles are in the pattern, which is written first.

@@ -3,6 +3,8 @@
 use super::json::{Json, objects};
 
 /// Numbers that glTF borrows from OpenGL.
+pub(super) const BYTE: u32 = 5120;
+pub(super) const SHORT: u32 = 5122;
 pub(super) const UNSIGNED_INT: u32 = 5125;
 pub(super) const FLOAT: u32 = 5126;
 pub(super) const ARRAY_BUFFER: u32 = 34962;
@@ -11,6 +13,8 @@ pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 objects! {
     Gltf {
         "asset" asset: Asset,
+        "extensionsUsed" extensions_used: Vec<&'static str>,
+        "extensionsRequired" extensions_required: Vec<&'static str>,
         "scene" scene: usize,
         "scenes" scenes: [Scene; 1],
         "nodes" nodes: Vec<Node>,
@@ -33,6 +37,7 @@ objects! {
     Node {
         "name" name: String,
         "mesh" mesh: Option<usize>,
+        "translation" translation: Option<[f32; 3]>,
         "scale" scale: Option<[f32; 3]>,
         "children" children: Vec<usize>,
     }
@@ -68,6 +73,7 @@ objects! {
         "bufferView" buffer_view: usize,
         "byteOffset" byte_offset: u64,
         "componentType" component_type: u32,
+        "normalized" normalized: Option<bool>,
         "count" count: u64,
         "type" shape: &'static str,
         "min" min: Option<[f32; 3]>,

@@ -78,8 +78,8 @@ impl Seek for Nowhere {
     }
 }
 
-/// A mesh of 5,000 yarns and 240 MB of vertices is written with chunks of 8 MiB. Besides the control
-/// points and two chunks, a writer may have 3 kB for each yarn, most of it glTF's document.
+/// A mesh of 5,000 yarns and 240 MB of vertices is written with chunks of 8 MiB. Besides the
+/// control points and two chunks, a writer may have 3 kB for each yarn, most of it glTF's document.
 fn a_file_peaks_at_two_chunks_in_any_format() {
     let mut yarns = Yarns::builder();
     for end in 0..5000 {

@@ -75,7 +75,11 @@ impl Cloth {
 /// The file to write, which replaces none of `files`.
 fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
     let output = Output::to(&args.output).sparing(files);
-    if args.packed { output.packed() } else { output }
+    match (args.packed, args.linear) {
+        (true, _) => output.packed(),
+        (_, true) => output.linear(),
+        _ => output,
+    }
 }
 
 /// Writes the yarns themselves, or their centrelines. Returns the line to print about the file.

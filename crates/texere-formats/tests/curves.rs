@@ -230,3 +230,26 @@ fn a_stage_of_usd_keeps_control_points_to_the_bit_and_names_to_the_letter() {
     assert!(stage.contains("primvars:displayColor = [(1, 0, 0)]"));
     assert!(stage.contains("metersPerUnit = 0.001") && stage.contains("upAxis = \"Z\""));
 }
+
+#[test]
+fn linear_curves_of_usd_are_the_control_points() {
+    let yarns = yarns().with_tension(0.4).unwrap();
+    let stage = String::from_utf8(written(&yarns, CurveFormat::LinearUsda)).unwrap();
+    assert_eq!(stage.matches("uniform token type = \"linear\"").count(), 2);
+    for prim in stage.split("def BasisCurves").skip(1) {
+        let axes = numbers(prim, "points");
+        let mut vertices = axes.chunks_exact(3).map(|axes| [axes[0], axes[1], axes[2]]);
+        let mut widths = numbers(prim, "widths").into_iter();
+        for (count, yarn) in numbers(prim, "curveVertexCounts").iter().zip(numbers(prim, "primvars:yarn")) {
+            let points = yarns.yarn_points(yarn as usize).unwrap();
+            // A closed yarn ends where it begins.
+            let again = points.first().filter(|_| yarns.layout().yarns()[yarn as usize].closed);
+            for point in points.iter().chain(again) {
+                assert_eq!(vertices.next(), Some([point.x, point.y, point.z]));
+                assert_eq!(widths.next(), Some(2.0 * point.half_width()));
+            }
+            assert_eq!(*count as usize, points.len() + usize::from(again.is_some()));
+        }
+        assert!(vertices.next().is_none() && widths.next().is_none());
+    }
+}

@@ -156,6 +156,8 @@ impl Cloth {
     /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
     /// at all, and replaces no file of the design. ``packed`` halves a ``.glb``, with whole numbers
     /// for positions and normals: positions are off by 1/131068 of a yarn's length at most.
+    /// ``linear`` writes a ``.usda`` of straight lines between control points, for simulators that
+    /// read no other curves.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
@@ -163,13 +165,11 @@ impl Cloth {
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
     /// be written or packed.
-    #[pyo3(signature = (path, *, packed=false, device="auto"))]
-    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, device: &str) -> PyResult<()> {
+    #[pyo3(signature = (path, *, packed=false, linear=false, device="auto"))]
+    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, linear: bool, device: &str) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, packed).sparing(self.cloth.design().files());
-        if packed {
-            output.check().raise(py)?;
-        }
+        let output = mesh::output(&path, packed, linear).sparing(self.cloth.design().files());
+        output.check().raise(py)?;
         if !yarns::is_mesh(&path)? {
             return watch::quietly(py, |_| yarns::write(yarns, output));
         }

@@ -207,7 +207,7 @@ impl Mesh {
     /// packed.
     #[pyo3(signature = (path, *, packed=false))]
     fn write(&self, py: Python<'_>, path: PathBuf, packed: bool) -> PyResult<()> {
-        let output = output(&path, packed);
+        let output = output(&path, packed, false);
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -275,8 +275,11 @@ fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bou
     unsafe { view(slf.as_any(), words.slice(s![.., first..end])) }
 }
 
-/// The file that a mesh is written to.
-pub(crate) fn output(path: &Path, packed: bool) -> Output {
-    let output = Output::to(path);
-    if packed { output.packed() } else { output }
+/// The file that a cloth, yarns or a mesh are written to.
+pub(crate) fn output(path: &Path, packed: bool, linear: bool) -> Output {
+    match (packed, linear) {
+        (true, _) => Output::to(path).packed(),
+        (_, true) => Output::to(path).linear(),
+        _ => Output::to(path),
+    }
 }

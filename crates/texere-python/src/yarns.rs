@@ -17,7 +17,7 @@ use texere::{ControlPoint, WriteError};
 use crate::arrays::{given, view};
 use crate::error::{Error, Raise};
 use crate::mesh::{Mesh, settings};
-use crate::watch;
+use crate::{mesh, watch};
 
 /// Yarns that several objects of Python share.
 #[derive(Debug, Clone)]
@@ -106,6 +106,7 @@ fn is_saved(path: &Path) -> bool {
 /// Writes yarns, or their centrelines as curves, by the ending of the path.
 pub(crate) fn write(yarns: &texere::Yarns, output: Output) -> Result<(), WriteError> {
     if is_saved(output.path()) {
+        output.check()?;
         return texere::write::yarns(yarns, output).map(|_| ());
     }
     texere::write::curves(yarns, output).map(|_| ())
@@ -264,7 +265,8 @@ impl Yarns {
     /// Writes the yarns by the ending of the path: ``.yarns``, to the bit, for
     /// :func:`texere.read_yarns`; ``.bcc`` and ``.usda``, their centrelines as curves in mm. A BCC
     /// file has neither thickness nor colour, and :func:`texere.read_curves` reads it. The file
-    /// appears whole or not at all.
+    /// appears whole or not at all. ``linear`` writes a ``.usda`` of straight lines between control
+    /// points, for simulators that read no other curves.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.yarns"
@@ -272,9 +274,10 @@ impl Yarns {
     ///
     /// Raises :class:`texere.Error` for another ending, for BCC of yarns whose tension is not 0,
     /// and for a file that can't be written.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let yarns: &texere::Yarns = &self.yarns;
-        watch::quietly(py, |_| write(yarns, path.into()))
+    #[pyo3(signature = (path, *, linear=false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, linear: bool) -> PyResult<()> {
+        let (yarns, output): (&texere::Yarns, _) = (&self.yarns, mesh::output(&path, false, linear));
+        watch::quietly(py, |_| write(yarns, output))
     }
 
     fn __len__(&self) -> usize {

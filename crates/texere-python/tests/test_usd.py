@@ -56,6 +56,29 @@ def test_a_stage_holds_the_yarns(tmp_path, design):
     assert sorted(seen) == list(range(len(yarns)))
 
 
+def test_linear_curves_run_through_the_control_points(tmp_path):
+    cloth = texere.read("designs/jersey.toml").placed()
+    by_yarns, by_cloth = tmp_path / "yarns.usda", tmp_path / "cloth.usda"
+    cloth.yarns.write(by_yarns, linear=True)
+    cloth.write(by_cloth, linear=True)
+    assert by_yarns.read_bytes() == by_cloth.read_bytes()
+    ours = numpy.split(cloth.yarns.points, cloth.yarns.offsets[1:-1].astype(int))
+    for curves in curves_of(by_cloth):
+        assert curves.GetTypeAttr().Get() == UsdGeom.Tokens.linear
+        counts = numpy.array(curves.GetCurveVertexCountsAttr().Get())
+        assert len(curves.GetWidthsAttr().Get()) == counts.sum()
+        points = numpy.split(numpy.array(curves.GetPointsAttr().Get()), numpy.cumsum(counts)[:-1])
+        for yarn, own in zip(curves.GetPrim().GetAttribute("primvars:yarn").Get(), points):
+            assert numpy.array_equal(own, ours[yarn])
+    for name in ["cloth.bcc", "cloth.yarns", "cloth.glb"]:
+        with pytest.raises(texere.Error):
+            cloth.write(tmp_path / name, linear=True)
+        if name != "cloth.glb":
+            with pytest.raises(texere.Error):
+                cloth.yarns.write(tmp_path / name, linear=True)
+    assert len(list(tmp_path.iterdir())) == 2
+
+
 def test_curves_are_as_long_as_their_yarns(tmp_path):
     # A helix, whose length is known.
     radius, pitch, turns = 2.0, 1.5, 5

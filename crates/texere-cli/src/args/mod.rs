@@ -122,6 +122,10 @@ pub(crate) struct MeshArgs {
     /// KHR_mesh_quantization allows. Positions are off by 1/131068 of the yarn's length at most
     #[arg(long)]
     pub(crate) packed: bool,
+    /// Write the curves of a .usda file as straight lines between control points, for simulators
+    /// that read no other curves
+    #[arg(long, conflicts_with = "packed")]
+    pub(crate) linear: bool,
     #[command(flatten)]
     pub(crate) curves: CurveArgs,
     #[command(flatten)]

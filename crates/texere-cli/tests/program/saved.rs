@@ -47,7 +47,9 @@ fn curves_are_those_of_the_cloth_at_rest() {
     assert!(places(&read) == places(&yarns));
     // Nothing settles here, so a device that does not exist is not missed.
     stdout(&texere(&["mesh", &saved, "-o", &stage, "--device", "none"]));
-    assert!(fs::read_to_string(&stage).unwrap().starts_with("#usda 1.0\n"));
+    assert!(fs::read_to_string(&stage).unwrap().contains("token type = \"cubic\""));
+    stdout(&texere(&["mesh", &saved, "-o", &stage, "--linear", "--device", "none"]));
+    assert!(fs::read_to_string(&stage).unwrap().contains("token type = \"linear\""));
 }
 
 /// Saved yarns keep the tension of their splines, unless the command line gives another.
@@ -80,7 +82,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 19] = [
+    let cases: [(&[&str], i32, &str); 21] = [
         (&["inspect", &saved], 3, alone),
         (&["check", &saved], 3, alone),
         (&["draft", &saved, "--text"], 3, alone),
@@ -95,6 +97,8 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
         (&["mesh", &saved, "-o", &other, "--packed"], 2, "--packed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
+        (&["mesh", &design, "-o", &ply, "--linear"], 2, "does not end in .usda"),
+        (&["mesh", &saved, "-o", &path("cloth.bcc"), "--linear"], 2, "does not end in .usda"),
         (&["mesh", &design, "-o", &other, "--sides", "9"], 2, "--sides needs a mesh"),
         (&["mesh", &saved, "-o", &path("cloth.usda"), "--sides", "9"], 2, "--sides needs a mesh"),
         (

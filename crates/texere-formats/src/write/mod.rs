@@ -41,6 +41,7 @@
 
 mod beside;
 mod bounds;
+mod curve_format;
 mod curves;
 #[cfg(feature = "wif")]
 mod design;
@@ -71,7 +72,8 @@ mod tests;
 mod unfinished;
 mod yarns;
 
-pub use curves::{CurveFormat, curves, curves_to};
+pub use curve_format::CurveFormat;
+pub use curves::{curves, curves_to};
 #[cfg(feature = "toml")]
 pub use design::{toml, toml_to};
 #[cfg(feature = "wif")]

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 
-use super::{Format, WriteError};
+use super::curve_format::CurveFormat;
+use super::error::WriteError;
+use super::format::Format;
 
 /// The target of a write, and the files that it must not replace, such as those that the design was
 /// read from.
@@ -27,14 +29,22 @@ use super::{Format, WriteError};
 pub struct Output {
     path: PathBuf,
     spared: Vec<PathBuf>,
-    packed: bool,
+    form: Form,
+}
+
+/// How a file is written, if its format has several ways.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Plain,
+    Packed,
+    Linear,
 }
 
 impl Output {
     /// A file at `path`. If `path` is a symbolic link, the output is the file that the link leads
     /// to.
     pub fn to(path: impl AsRef<Path>) -> Self {
-        Self { path: path.as_ref().to_owned(), spared: Vec::new(), packed: false }
+        Self { path: path.as_ref().to_owned(), spared: Vec::new(), form: Form::Plain }
     }
 
     /// Does not replace any of `files`, even under another name: another spelling, a hard link or a
@@ -66,23 +76,61 @@ impl Output {
     /// ```
     #[must_use]
     pub fn packed(mut self) -> Self {
-        self.packed = true;
+        self.form = Form::Packed;
+        self
+    }
+
+    /// Writes curves as [`CurveFormat::LinearUsda`]. The path has to end in `.usda`.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// use texere_formats::write::{self, Output};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let path = folder.path().join("yarn.usda");
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// write::curves(&yarns.build()?, Output::to(&path).linear())?;
+    /// assert!(std::fs::read_to_string(&path)?.contains("token type = \"linear\""));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn linear(mut self) -> Self {
+        self.form = Form::Linear;
         self
     }
 
     /// The format of a mesh at this output.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] if the format can't
-    /// be packed.
+    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] for an ending that
+    /// has no such form.
     pub(super) fn format(&self) -> Result<Format, WriteError> {
-        match (Format::from_path(&self.path), self.packed) {
-            (format, false) => format,
-            (Ok(Format::Glb), true) => Ok(Format::PackedGlb),
-            _ => Err(WriteError::NotEnding {
-                path: self.path.clone(),
-                expected: Format::PackedGlb.extension(),
-            }),
+        self.check_form()?;
+        match self.form {
+            Form::Packed => Ok(Format::PackedGlb),
+            Form::Plain | Form::Linear => Format::from_path(&self.path),
         }
+    }
+
+    /// The format of curves at this output.
+    ///
+    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] for an ending that
+    /// has no such form.
+    pub(super) fn curve_format(&self) -> Result<CurveFormat, WriteError> {
+        self.check_form()?;
+        match self.form {
+            Form::Linear => Ok(CurveFormat::LinearUsda),
+            Form::Plain | Form::Packed => CurveFormat::from_path(&self.path),
+        }
+    }
+
+    /// Checks that the path has the ending that its form needs.
+    fn check_form(&self) -> Result<(), WriteError> {
+        let expected = match self.form {
+            Form::Plain => return Ok(()),
+            Form::Packed => Format::PackedGlb.extension(),
+            Form::Linear => CurveFormat::LinearUsda.extension(),
+        };
+        self.clone().ending(expected).map(drop)
     }
 
     /// The path as it was given.
@@ -95,20 +143,18 @@ impl Output {
     /// not.
     #[cfg(feature = "obj")]
     pub(super) fn beside(&self, extension: &str) -> Self {
-        Self { path: self.path.with_extension(extension), spared: self.spared.clone(), packed: false }
+        Self { path: self.path.with_extension(extension), spared: self.spared.clone(), form: Form::Plain }
     }
 
     /// Checks whether a file may be written at the path now. The check is meant for a program that
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::NotEnding`] for a packed output that is no `.glb` file,
+    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed or linear,
     /// [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
     /// file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
-        if self.packed {
-            self.format()?;
-        }
+        self.check_form()?;
         self.clone().place().map(drop)
     }
 

@@ -5,53 +5,12 @@ mod bcc;
 mod usd;
 
 use std::io::Write;
-use std::path::Path;
 
 use texere_core::Yarns;
 
-use super::format::by_extension;
+use super::curve_format::CurveFormat;
 use super::target::Target;
 use super::{Output, WriteError};
-
-/// A kind of file of curves.
-///
-/// ```
-/// use texere_formats::write::CurveFormat;
-/// assert_eq!(CurveFormat::from_path("damask.USDA")?, CurveFormat::Usda);
-/// let error = CurveFormat::from_path("damask.abc").unwrap_err();
-/// assert_eq!(error.to_string(), "damask.abc has no known extension; there are: bcc, usda");
-/// # Ok::<(), texere_formats::WriteError>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum CurveFormat {
-    /// Binary Curve Collection: control points alone. It has no thickness, no colour and no
-    /// tension.
-    Bcc,
-    /// The text form of Universal Scene Description: curves with diameters and colours.
-    Usda,
-}
-
-impl CurveFormat {
-    /// All formats.
-    pub const ALL: [Self; 2] = [Self::Bcc, Self::Usda];
-
-    /// The extension that stands for the format, without its dot.
-    #[must_use]
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Bcc => "bcc",
-            Self::Usda => "usda",
-        }
-    }
-
-    /// The format that the extension of `path` stands for, in upper or lower case.
-    ///
-    /// **Errors**: [`WriteError::UnknownFormat`], which names all extensions.
-    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, WriteError> {
-        by_extension(path.as_ref(), Self::ALL, Self::extension)
-    }
-}
 
 /// Writes the centrelines of yarns as curves, in the format that the extension of `output` stands
 /// for. Coordinates are in mm. Returns the file's length in bytes.
@@ -59,7 +18,8 @@ impl CurveFormat {
 /// Both formats hold the control points of the spline to the bit. `docs/FORMATS.md` says what else
 /// each of them holds. Sections, up directions, twist and sources are left out.
 ///
-/// **Errors**: [`WriteError::UnknownFormat`]; [`WriteError::Unheld`] for BCC of yarns whose tension
+/// **Errors**: [`WriteError::UnknownFormat`]; [`WriteError::NotEnding`] for linear curves that are
+/// no `.usda` file; [`WriteError::Unheld`] for BCC of yarns whose tension
 /// is not 0, or of a yarn of more than 2³¹ - 1 control points; [`WriteError::Spared`],
 /// [`WriteError::Io`].
 ///
@@ -76,7 +36,7 @@ impl CurveFormat {
 /// ```
 pub fn curves(yarns: &Yarns, output: impl Into<Output>) -> Result<u64, WriteError> {
     let output = output.into();
-    let format = CurveFormat::from_path(output.path())?;
+    let format = output.curve_format()?;
     check(yarns, format)?;
     write(yarns, format, Target::create(output)?)?.commit()
 }
@@ -104,13 +64,14 @@ pub fn curves_to(yarns: &Yarns, format: CurveFormat, out: impl Write) -> Result<
 fn check(yarns: &Yarns, format: CurveFormat) -> Result<(), WriteError> {
     match format {
         CurveFormat::Bcc => bcc::check(yarns),
-        CurveFormat::Usda => Ok(()),
+        CurveFormat::Usda | CurveFormat::LinearUsda => Ok(()),
     }
 }
 
 fn write<W: Write>(yarns: &Yarns, format: CurveFormat, target: Target<W>) -> Result<Target<W>, WriteError> {
     match format {
         CurveFormat::Bcc => bcc::write(yarns, target),
-        CurveFormat::Usda => usd::write(yarns, target),
+        CurveFormat::Usda => usd::write(yarns, usd::Basis::of(yarns.tension()), target),
+        CurveFormat::LinearUsda => usd::write(yarns, usd::Basis::Linear, target),
     }
 }

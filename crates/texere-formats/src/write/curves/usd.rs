@@ -4,7 +4,8 @@
 //! beyond the ends of a curve, which shape its first and its last interval, are written out. With
 //! the wrap `pinned` a renderer would make up these points, and usdview and Blender draw such
 //! curves wrong. A closed yarn is written as a curve that ends where it begins. A spline of any
-//! other tension is written as Bézier curves of the same shape.
+//! other tension is written as Bézier curves of the same shape. For programs that read straight
+//! lines alone, any spline can be written as the lines between its control points.
 //!
 //! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org.
 
@@ -17,8 +18,27 @@ use texere_core::{ControlPoint, Material, Yarns};
 use super::super::WriteError;
 use super::super::target::Target;
 
+/// The kinds of curves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Basis {
+    CatmullRom,
+    Bezier,
+    Linear,
+}
+
+impl Basis {
+    /// The basis that holds the shape of splines of `tension`.
+    pub(super) fn of(tension: f32) -> Self {
+        if tension == 0.0 { Self::CatmullRom } else { Self::Bezier }
+    }
+}
+
 /// Writes a stage with all yarns.
-pub(super) fn write<W: Write>(yarns: &Yarns, target: Target<W>) -> Result<Target<W>, WriteError> {
+pub(super) fn write<W: Write>(
+    yarns: &Yarns,
+    basis: Basis,
+    target: Target<W>,
+) -> Result<Target<W>, WriteError> {
     let mut stage = Stage { target };
     stage.line(format_args!(
         "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n    doc = \"texere {}: x along the weft or course, \
@@ -27,7 +47,7 @@ pub(super) fn write<W: Write>(yarns: &Yarns, target: Target<W>) -> Result<Target
         env!("CARGO_PKG_VERSION")
     ))?;
     for (number, material) in yarns.materials().iter().enumerate() {
-        let own = Own { yarns, material: number as u32 };
+        let own = Own { yarns, basis, material: number as u32 };
         if own.curves().next().is_some() {
             stage.curves(&own, number, material)?;
         }
@@ -39,17 +59,19 @@ pub(super) fn write<W: Write>(yarns: &Yarns, target: Target<W>) -> Result<Target
 /// The yarns of one material.
 struct Own<'a> {
     yarns: &'a Yarns,
+    basis: Basis,
     material: u32,
 }
 
 impl<'a> Own<'a> {
     fn curves(&self) -> impl Iterator<Item = Curve<'a>> {
-        let (yarns, material) = (self.yarns, self.material);
+        let (yarns, basis, material) = (self.yarns, self.basis, self.material);
         let all = yarns.layout().yarns().iter().enumerate();
         all.filter(move |(_, yarn)| yarn.material == material).map(move |(number, yarn)| Curve {
             number,
             points: yarns.yarn_points(number).unwrap_or_default(),
             closed: yarn.closed,
+            basis,
             tension: yarns.tension(),
         })
     }
@@ -61,6 +83,7 @@ struct Curve<'a> {
     number: usize,
     points: &'a [ControlPoint],
     closed: bool,
+    basis: Basis,
     tension: f32,
 }
 
@@ -71,7 +94,11 @@ impl<'a> Curve<'a> {
 
     /// Number of the curve's vertices in the file.
     fn count(self) -> usize {
-        if self.tension == 0.0 { self.intervals() + 3 } else { 3 * self.intervals() + 1 }
+        match self.basis {
+            Basis::CatmullRom => self.intervals() + 3,
+            Basis::Bezier => 3 * self.intervals() + 1,
+            Basis::Linear => self.intervals() + 1,
+        }
     }
 
     /// The curve's vertices in the file, mm.
@@ -80,14 +107,17 @@ impl<'a> Curve<'a> {
             neighbours(self.points, self.closed, interval).map(|point| [point.x, point.y, point.z])
         };
         let [before, start, end, _] = window(0);
-        let catmull_rom = self.tension == 0.0;
-        let first =
-            if catmull_rom { [Some(before), Some(start), Some(end)] } else { [Some(start), None, None] };
+        let first = match self.basis {
+            Basis::CatmullRom => [Some(before), Some(start), Some(end)],
+            Basis::Bezier | Basis::Linear => [Some(start), None, None],
+        };
         let third = tangent_factor::<f32>(self.tension) / 3.0;
         let others = (0..self.intervals()).map(move |interval| {
             let [before, start, end, after] = window(interval);
-            if catmull_rom {
-                return [Some(after), None, None];
+            match self.basis {
+                Basis::CatmullRom => return [Some(after), None, None],
+                Basis::Linear => return [Some(end), None, None],
+                Basis::Bezier => {}
             }
             let leaving = std::array::from_fn(|axis| start[axis] + third * (end[axis] - before[axis]));
             let arriving = std::array::from_fn(|axis| end[axis] - third * (after[axis] - start[axis]));
@@ -151,7 +181,12 @@ impl<W: Write> Stage<W> {
 
     /// Writes the yarns of a material as one prim.
     fn curves(&mut self, own: &Own<'_>, number: usize, material: &Material) -> Result<(), WriteError> {
-        let basis = if own.yarns.tension() == 0.0 { "catmullRom" } else { "bezier" };
+        let (kind, basis) = match own.basis {
+            Basis::CatmullRom => ("cubic", "catmullRom"),
+            Basis::Bezier => ("cubic", "bezier"),
+            // Readers of linear curves pass over the basis. This one is the schema's default.
+            Basis::Linear => ("linear", "bezier"),
+        };
         let [low, high] = extent(own);
         self.line(format_args!(
             "    def BasisCurves \"yarns_{}\" (\n        displayName = {}\n    )\n    {{",
@@ -165,7 +200,7 @@ impl<W: Write> Stage<W> {
         self.list("bool[] primvars:closed", own.curves().map(|curve| curve.closed), "uniform")?;
         self.list("color3f[] primvars:displayColor", [triple(material.linear_rgb())].iter(), "")?;
         self.list("int[] primvars:yarn", own.curves().map(|curve| curve.number), "uniform")?;
-        self.line("        uniform token type = \"cubic\"")?;
+        self.line(format_args!("        uniform token type = \"{kind}\""))?;
         self.list("float[] widths", own.curves().flat_map(Curve::diameters), "varying")?;
         self.line("        uniform token wrap = \"nonperiodic\"\n    }")
     }

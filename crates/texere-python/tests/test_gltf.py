@@ -37,7 +37,7 @@ def opened():
 
 
 def faults(report):
-    """What a user would be told. Hints and informations are none."""
+    """The errors and warnings of a report. Its hints and its information are not faults."""
     return [message for message in report["issues"]["messages"] if message["severity"] <= 1]
 
 

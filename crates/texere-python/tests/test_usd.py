@@ -3,7 +3,7 @@
 import numpy
 import pytest
 import texere
-from pxr import Usd, UsdGeom
+from pxr import Usd, UsdGeom, UsdShade
 
 
 def spline_length(points, steps=64):
@@ -67,6 +67,15 @@ def test_linear_curves_run_through_the_control_points(tmp_path):
         assert curves.GetTypeAttr().Get() == UsdGeom.Tokens.linear
         counts = numpy.array(curves.GetCurveVertexCountsAttr().Get())
         assert len(curves.GetWidthsAttr().Get()) == counts.sum()
+        prim = curves.GetPrim()
+        assert "PhysicsCurvesDeformableSimAPI" in prim.GetPrimTypeInfo().GetAppliedAPISchemas()
+        thickness = prim.GetAttribute("physics:thicknesses").Get()
+        assert numpy.array_equal(thickness, curves.GetWidthsAttr().Get())
+        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+        density = material.GetPrim().GetAttribute("physics:density").Get()
+        # A metre of yarn, 1000 mm of its area, weighs as many milligrams as the yarn has tex.
+        area = numpy.pi / 4.0 * numpy.mean(numpy.square(thickness))
+        assert abs(density * area * 1000.0 / 20e-6 - 1.0) < 1e-3
         points = numpy.split(numpy.array(curves.GetPointsAttr().Get()), numpy.cumsum(counts)[:-1])
         for yarn, own in zip(curves.GetPrim().GetAttribute("primvars:yarn").Get(), points):
             assert numpy.array_equal(own, ours[yarn])

@@ -5,10 +5,14 @@
 //! the wrap `pinned` a renderer would make up these points, and usdview and Blender draw such
 //! curves wrong. A closed yarn is written as a curve that ends where it begins. A spline of any
 //! other tension is written as Bézier curves of the same shape. For programs that read straight
-//! lines alone, any spline can be written as the lines between its control points.
+//! lines alone, any spline can be written as the lines between its control points. Such programs
+//! are simulators. The curves therefore have the attributes of deformable bodies: their thickness
+//! at each point, and their density, if the yarns have a tex.
 //!
-//! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org.
+//! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org. Alliance for OpenUSD, "Deformable Body
+//! Physics" (a proposal).
 
+use std::f64::consts::PI;
 use std::fmt::Display;
 use std::io::Write;
 
@@ -147,6 +151,17 @@ fn extent(own: &Own<'_>) -> [[f32; 3]; 2] {
     [extent[0].map(|low| low - radius), extent[1].map(|high| high + radius)]
 }
 
+/// The density of the yarns of a material, kg/mm³, if their tex is known: that of a yarn whose
+/// section is the mean of theirs. A tex is a gram in a kilometre.
+fn density(own: &Own<'_>, material: &Material) -> Option<f64> {
+    let tex = f64::from(material.tex?);
+    let areas =
+        own.curves().flat_map(Curve::diameters).map(|diameter| f64::from(diameter).powi(2) * PI / 4.0);
+    let (count, sum) = areas.fold((0_u32, 0.0), |(count, sum), area| (count + 1, sum + area));
+    let kg_per_mm = tex * 1e-9;
+    Some(kg_per_mm * f64::from(count) / sum)
+}
+
 /// A point or a colour as the format writes it.
 fn triple([x, y, z]: [f32; 3]) -> String {
     format!("({x}, {y}, {z})")
@@ -187,10 +202,17 @@ impl<W: Write> Stage<W> {
             // Readers of linear curves pass over the basis. This one is the schema's default.
             Basis::Linear => ("linear", "bezier"),
         };
+        let schemas = match own.basis {
+            Basis::Linear => {
+                "        prepend apiSchemas = [\"PhysicsCurvesDeformableSimAPI\", \"MaterialBindingAPI\"]\n"
+            }
+            Basis::CatmullRom | Basis::Bezier => "",
+        };
         let [low, high] = extent(own);
         self.line(format_args!(
-            "    def BasisCurves \"yarns_{}\" (\n        displayName = {}\n    )\n    {{",
+            "    def BasisCurves \"yarns_{}\" (\n{}        displayName = {}\n    )\n    {{",
             number + 1,
+            schemas,
             quoted(&material.name)
         ))?;
         self.line(format_args!("        uniform token basis = \"{basis}\""))?;
@@ -202,7 +224,25 @@ impl<W: Write> Stage<W> {
         self.list("int[] primvars:yarn", own.curves().map(|curve| curve.number), "uniform")?;
         self.line(format_args!("        uniform token type = \"{kind}\""))?;
         self.list("float[] widths", own.curves().flat_map(Curve::diameters), "varying")?;
-        self.line("        uniform token wrap = \"nonperiodic\"\n    }")
+        self.line("        uniform token wrap = \"nonperiodic\"")?;
+        if own.basis == Basis::Linear {
+            self.physics(own, number, material)?;
+        }
+        self.line("    }")
+    }
+
+    /// Writes what a simulator needs of the yarns of a material.
+    fn physics(&mut self, own: &Own<'_>, number: usize, material: &Material) -> Result<(), WriteError> {
+        self.list("float[] physics:thicknesses", own.curves().flat_map(Curve::diameters), "")?;
+        self.line("        uniform token physics:thicknesses:elementType = \"point\"")?;
+        let Some(density) = density(own, material) else { return Ok(()) };
+        let yarns = number + 1;
+        self.line(format_args!("        rel material:binding:physics = </cloth/yarns_{yarns}/yarn>"))?;
+        self.line(
+            "\n        def Material \"yarn\" (\n            \
+             prepend apiSchemas = [\"PhysicsCurvesDeformableMaterialAPI\"]\n        )\n        {",
+        )?;
+        self.line(format_args!("            float physics:density = {density}\n        }}"))
     }
 
     /// Writes a list of values.

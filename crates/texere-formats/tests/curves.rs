@@ -236,6 +236,9 @@ fn linear_curves_of_usd_are_the_control_points() {
     let yarns = yarns().with_tension(0.4).unwrap();
     let stage = String::from_utf8(written(&yarns, CurveFormat::LinearUsda)).unwrap();
     assert_eq!(stage.matches("uniform token type = \"linear\"").count(), 2);
+    // Yarns without a tex have no mass.
+    let heavy = yarns.materials().iter().filter(|material| material.tex.is_some()).count();
+    assert_eq!(stage.matches("physics:masses = ").count(), heavy);
     for prim in stage.split("def BasisCurves").skip(1) {
         let axes = numbers(prim, "points");
         let mut vertices = axes.chunks_exact(3).map(|axes| [axes[0], axes[1], axes[2]]);

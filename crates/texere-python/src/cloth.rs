@@ -154,21 +154,22 @@ impl Cloth {
     /// Writes the cloth by the ending of the path: ``.glb``, ``.ply``, ``.stl`` and ``.obj``, its
     /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.yarns``, its yarns to
     /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
-    /// at all, and replaces no file of the design. ``packed`` halves a ``.glb``, with whole numbers
-    /// for positions and normals: positions are off by 1/131068 of a yarn's length at most.
-    /// ``linear`` writes a ``.usda`` of straight lines between control points, for simulators that
-    /// read no other curves.
+    /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
+    /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
+    /// yarn's box at most.
+    /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
+    /// mass, for simulators that read no other curves.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
     /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
-    /// be written or packed.
+    /// be written or packed; ValueError for one that is to be packed and linear.
     #[pyo3(signature = (path, *, packed=false, linear=false, device="auto"))]
     fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, linear: bool, device: &str) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, packed, linear).sparing(self.cloth.design().files());
+        let output = mesh::output(&path, packed, linear)?.sparing(self.cloth.design().files());
         output.check().raise(py)?;
         if !yarns::is_mesh(&path)? {
             return watch::quietly(py, |_| yarns::write(yarns, output));

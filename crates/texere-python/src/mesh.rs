@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use bytemuck::cast_slice;
 use numpy::ndarray::{Array2, ArrayView2, s};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use texere::mesh::Attribute;
@@ -195,9 +196,9 @@ impl Mesh {
     }
 
     /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
-    /// not at all. It is made again while it is written, piece by piece. ``packed`` halves a
-    /// ``.glb``, with whole numbers for positions and normals: positions are off by 1/131068 of a
-    /// yarn's length at most.
+    /// not at all. It is made again while it is written, piece by piece. ``packed`` halves the
+    /// vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
+    /// side of the yarn's box at most.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
@@ -207,7 +208,7 @@ impl Mesh {
     /// packed.
     #[pyo3(signature = (path, *, packed=false))]
     fn write(&self, py: Python<'_>, path: PathBuf, packed: bool) -> PyResult<()> {
-        let output = output(&path, packed, false);
+        let output = output(&path, packed, false)?;
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -276,10 +277,13 @@ fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bou
 }
 
 /// The file that a cloth, yarns or a mesh are written to.
-pub(crate) fn output(path: &Path, packed: bool, linear: bool) -> Output {
+///
+/// **Errors**: `ValueError` for a file that is to be both.
+pub(crate) fn output(path: &Path, packed: bool, linear: bool) -> PyResult<Output> {
     match (packed, linear) {
-        (true, _) => Output::to(path).packed(),
-        (_, true) => Output::to(path).linear(),
-        _ => Output::to(path),
+        (true, true) => Err(PyValueError::new_err("a file is packed (.glb) or linear (.usda), not both")),
+        (true, false) => Ok(Output::to(path).packed()),
+        (false, true) => Ok(Output::to(path).linear()),
+        (false, false) => Ok(Output::to(path)),
     }
 }

@@ -106,7 +106,6 @@ fn is_saved(path: &Path) -> bool {
 /// Writes yarns, or their centrelines as curves, by the ending of the path.
 pub(crate) fn write(yarns: &texere::Yarns, output: Output) -> Result<(), WriteError> {
     if is_saved(output.path()) {
-        output.check()?;
         return texere::write::yarns(yarns, output).map(|_| ());
     }
     texere::write::curves(yarns, output).map(|_| ())
@@ -276,7 +275,7 @@ impl Yarns {
     /// and for a file that can't be written.
     #[pyo3(signature = (path, *, linear=false))]
     fn write(&self, py: Python<'_>, path: PathBuf, linear: bool) -> PyResult<()> {
-        let (yarns, output): (&texere::Yarns, _) = (&self.yarns, mesh::output(&path, false, linear));
+        let (yarns, output): (&texere::Yarns, _) = (&self.yarns, mesh::output(&path, false, linear)?);
         watch::quietly(py, |_| write(yarns, output))
     }
 

@@ -3,7 +3,7 @@
 import numpy
 import pytest
 import texere
-from pxr import Usd, UsdGeom, UsdShade
+from pxr import Usd, UsdGeom
 
 
 def spline_length(points, steps=64):
@@ -68,23 +68,25 @@ def test_linear_curves_run_through_the_control_points(tmp_path):
         counts = numpy.array(curves.GetCurveVertexCountsAttr().Get())
         assert len(curves.GetWidthsAttr().Get()) == counts.sum()
         prim = curves.GetPrim()
-        assert "PhysicsCurvesDeformableSimAPI" in prim.GetPrimTypeInfo().GetAppliedAPISchemas()
+        assert {"PhysicsCurvesDeformableSimAPI", "PhysicsCollisionAPI"} <= set(prim.GetPrimTypeInfo().GetAppliedAPISchemas())
         thickness = prim.GetAttribute("physics:thicknesses").Get()
         assert numpy.array_equal(thickness, curves.GetWidthsAttr().Get())
-        material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
-        density = material.GetPrim().GetAttribute("physics:density").Get()
-        # A metre of yarn, 1000 mm of its area, weighs as many milligrams as the yarn has tex.
-        area = numpy.pi / 4.0 * numpy.mean(numpy.square(thickness))
-        assert abs(density * area * 1000.0 / 20e-6 - 1.0) < 1e-3
+        masses = prim.GetAttribute("physics:masses").Get()
+        assert len(masses) == len(counts)
         points = numpy.split(numpy.array(curves.GetPointsAttr().Get()), numpy.cumsum(counts)[:-1])
         for yarn, own in zip(curves.GetPrim().GetAttribute("primvars:yarn").Get(), points):
             assert numpy.array_equal(own, ours[yarn])
+        # 20 tex: 20 milligrams a metre.
+        lengths = [numpy.linalg.norm(numpy.diff(own, axis=0), axis=1).sum() for own in points]
+        assert numpy.allclose(masses, 20e-6 * numpy.array(lengths) / 1000.0, rtol=1e-5)
     for name in ["cloth.bcc", "cloth.yarns", "cloth.glb"]:
         with pytest.raises(texere.Error):
             cloth.write(tmp_path / name, linear=True)
         if name != "cloth.glb":
             with pytest.raises(texere.Error):
                 cloth.yarns.write(tmp_path / name, linear=True)
+    with pytest.raises(ValueError):
+        cloth.write(tmp_path / "both.usda", linear=True, packed=True)
     assert len(list(tmp_path.iterdir())) == 2
 
 

@@ -8,8 +8,8 @@
 //! |---|---|
 //! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
-//! | halve a `.glb` file | [`Output::packed`] |
-//! | write USD's curves as straight lines | [`Output::linear`] |
+//! | write a smaller `.glb` file | [`Output::packed`] |
+//! | write curves for a simulator that reads straight lines alone | [`Output::linear`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write centrelines for a simulator or a renderer | [`curves`], [`curves_to`] |
 //! | write a design that is read again | `wif`, `toml` (features of these names) |

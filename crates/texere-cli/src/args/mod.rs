@@ -118,12 +118,13 @@ pub(crate) struct MeshArgs {
     /// wgpu:nvidia, opencl:0/per-yarn
     #[arg(long, default_value = "auto")]
     pub(crate) device: String,
-    /// Write a .glb of half the size: whole numbers for positions and normals, as the extension
-    /// KHR_mesh_quantization allows. Positions are off by 1/131068 of the yarn's length at most
+    /// Write a .glb with half the bytes for a vertex: whole numbers, as the extension
+    /// KHR_mesh_quantization allows. Positions are off by 1/131068 of the largest side of the
+    /// yarn's box at most
     #[arg(long)]
     pub(crate) packed: bool,
-    /// Write the curves of a .usda file as straight lines between control points, for simulators
-    /// that read no other curves
+    /// Write the curves of a .usda file as straight lines between control points, with thickness
+    /// and mass, for simulators that read no other curves
     #[arg(long, conflicts_with = "packed")]
     pub(crate) linear: bool,
     #[command(flatten)]

@@ -20,8 +20,8 @@ const BELOW: u32 = 3;
 const ABOVE: u32 = 3;
 
 /// Distances by which the lower and the upper end of a yarn lie aside from the place where the yarn
-/// goes on in the repeat. The unit is the difference between the last two steps from point to
-/// point.
+/// goes on in the repeat. The unit is the difference between the steps from point to point before
+/// and after the end.
 ///
 /// In the repeat a further point bends the last interval of the spline. At the cut that point is
 /// missing, and the spline runs too straight.
@@ -54,37 +54,38 @@ impl WarpKnitted {
         if self.beyond() == [0, 0] {
             return Ok(yarns);
         }
+        let last = self.lapped_size()[1] - 1;
         for yarn in 0..yarns.layout().yarns().len() {
-            if !self.begins_with_loop(yarns.layout().yarns()[yarn].origin) {
-                continue;
-            }
+            let origin = yarns.layout().yarns()[yarn].origin;
             let mut points = yarns.yarn_points(yarn).unwrap_or(&[]).to_vec();
             // All rounds are alike: the lower end has a copy in the last round, and the upper end
             // has one in the first.
-            let around = |at: Option<usize>| points.get(at?.checked_sub(1)?..=at? + 1);
-            let below = around(points.len().checked_sub((BELOW + ABOVE) as usize));
-            let above = around(Some((BELOW + ABOVE) as usize - 1));
-            let moves = [below, above].map(|around| {
-                let [before, end, after] = around? else { return None };
-                Some(before.position() - 2.0 * end.position() + after.position())
+            let copies =
+                [points.len().checked_sub((BELOW + ABOVE) as usize), Some((BELOW + ABOVE) as usize - 1)];
+            // Below lies a copy of the last lap, above one of the first.
+            let laps = [last, 0];
+            let moves = [0, 1].map(|side| {
+                let copy = copies[side].filter(|_| self.makes_a_loop(origin, laps[side]))?;
+                let around = points.get(copy.checked_sub(1)?..=copy + 1)?;
+                let [before, end, after] = around else { return None };
+                Some(ASIDE[side] * (before.position() - 2.0 * end.position() + after.position()))
             });
-            let ends = [0, points.len().saturating_sub(1)];
-            for ((end, turn), aside) in ends.into_iter().zip(moves).zip(ASIDE) {
-                if let (Some(point), Some(turn)) = (points.get_mut(end), turn) {
-                    let [x, y, z] = (point.position() - aside * turn).to_array();
-                    (point.x, point.y, point.z) = (x, y, z);
-                }
+            if moves == [None, None] {
+                continue;
+            }
+            for (end, aside) in [0, points.len() - 1].into_iter().zip(moves) {
+                let [x, y, z] = (points[end].position() - aside.unwrap_or_default()).to_array();
+                (points[end].x, points[end].y, points[end].z) = (x, y, z);
             }
             yarns.set_points(yarn, &points)?;
         }
         Ok(yarns)
     }
 
-    /// Whether the first lap of a guide makes a loop. The lap that follows above the cloth is a
-    /// copy of it.
-    fn begins_with_loop(&self, origin: Origin) -> bool {
+    /// Whether the lap of a guide at a course makes a loop.
+    fn makes_a_loop(&self, origin: Origin, course: u32) -> bool {
         let Origin::Guide { bar, guide } = origin else { return false };
         let bar = self.bars().get((bar as usize).wrapping_sub(1));
-        bar.is_some_and(|bar| bar.lap(guide.wrapping_sub(1), 0).overlap() != 0)
+        bar.is_some_and(|bar| bar.lap(guide.wrapping_sub(1), course).overlap() != 0)
     }
 }

@@ -23,7 +23,7 @@ pub enum CurveFormat {
     /// The text form of Universal Scene Description: curves with diameters and colours.
     Usda,
     /// USD's text form with straight lines between control points, for simulators that read no
-    /// other curves. No extension stands for it alone:
+    /// other curves, and with their thickness and mass. No extension stands for it alone:
     /// [`Output::linear`](super::Output::linear) asks for it.
     LinearUsda,
 }

@@ -49,6 +49,20 @@ fn writer<'a, W: Write + Seek + 'a>(
     }
 }
 
+/// Checks that a mesh of `plan` can be written with `materials`, before any work is done for it.
+pub(super) fn check(plan: &Plan, materials: &[Material]) -> Result<(), WriteError> {
+    for (yarn, each) in plan.layout().yarns().iter().enumerate() {
+        if each.material as usize >= materials.len() {
+            let (material, materials) = (each.material, materials.len());
+            return Err(WriteError::UnknownMaterial { yarn, material, materials });
+        }
+    }
+    if plan.counts().triangles == 0 {
+        return Err(WriteError::Empty);
+    }
+    Ok(())
+}
+
 /// A mesh file that is being written, and the number of vertices that have come.
 pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
@@ -59,8 +73,8 @@ pub(super) struct Feed<'a, W: Write + Seek> {
 }
 
 impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
-    /// Starts a file for the mesh of `plan`, cut into `chunks`. A packed format needs the `bounds`
-    /// of all yarns. Others have none.
+    /// Starts a file for the mesh of `plan`, cut into `chunks`. [`check`] has passed. A packed
+    /// format needs the `bounds` of all yarns. Others have none.
     pub(super) fn open(
         format: Format,
         target: Target<W>,
@@ -69,15 +83,6 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         materials: &'a [Material],
         bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
-        for (yarn, each) in plan.layout().yarns().iter().enumerate() {
-            if each.material as usize >= materials.len() {
-                let (material, materials) = (each.material, materials.len());
-                return Err(WriteError::UnknownMaterial { yarn, material, materials });
-            }
-        }
-        if plan.counts().triangles == 0 {
-            return Err(WriteError::Empty);
-        }
         let mut planned = 0;
         let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
         let writer = writer(format, target, plan, &mut chunks, materials, bounds)?;

@@ -18,11 +18,11 @@ use super::WriteError;
 pub enum Format {
     /// glTF 2.0 binary, up to 4 GiB.
     Glb,
-    /// glTF 2.0 binary of half the size, up to 4 GiB. Positions and normals are whole numbers, as
-    /// the extension `KHR_mesh_quantization` allows. Coordinates are off by half a step at most.
-    /// There are 65,534 steps in the largest side of the box that a yarn lies in: a step is 1.5 µm
-    /// if that side has 10 cm, and a yarn of more than 655 mm is refused. Normals are off by 0.4
-    /// degrees at most. The mesh is made twice: first to find those boxes.
+    /// glTF 2.0 binary with 12 bytes for a vertex instead of 24, up to 4 GiB. Positions and normals
+    /// are whole numbers, as the extension `KHR_mesh_quantization` allows. Coordinates are off by
+    /// half a step at most. There are 65,534 steps in the largest side of the box that a yarn lies
+    /// in: a step is 1.5 µm if that side has 10 cm, and a side of more than 655 mm is refused.
+    /// Normals are off by 0.4 degrees at most. The mesh is made twice: first to find those boxes.
     ///
     /// No extension stands for this format alone: [`Output::packed`](super::Output::packed) asks
     /// for it.

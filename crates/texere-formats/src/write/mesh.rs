@@ -8,7 +8,7 @@ use texere_core::{Backend, Material, Mesh, MeshPiece, Pipeline, PipelineError, T
 
 use super::beside::Beside;
 use super::bounds::Bounds;
-use super::feed::Feed;
+use super::feed::{self, Feed};
 use super::target::Target;
 use super::{Format, Output, WriteError};
 
@@ -85,11 +85,12 @@ fn whole<W: Write + Seek>(
     format: Format,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<Target<W>, WriteError> {
+    feed::check(&mesh.plan, &mesh.materials)?;
+    let target = start()?;
     let bounds = match format {
         Format::PackedGlb => Some(bounds(mesh)?),
         _ => None,
     };
-    let target = start()?;
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
@@ -223,6 +224,7 @@ fn streamed<W: Write + Seek>(
 ) -> Result<(Target<W>, Written), WriteError> {
     let (plan, limits) = (run.plan().clone(), run.limits());
     let chunks = || plan.chunks(&limits).map_err(PipelineError::from);
+    feed::check(&plan, materials)?;
     let target = start()?;
     let bounds = match format {
         Format::PackedGlb => Some(survey(&mut run, chunks()?)?),

@@ -3,7 +3,7 @@
 //!
 //! | format | extension | feature | holds |
 //! |---|---|---|---|
-//! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z; [packed](Output::packed) it has half the bytes |
+//! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z; [packed](Output::packed) it has half the bytes for a vertex |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //! | binary STL | `.stl` | `stl` | the triangles alone, each with its corners; millimetres |
 //! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |

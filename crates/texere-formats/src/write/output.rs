@@ -154,7 +154,6 @@ impl Output {
     /// [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
     /// file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
-        self.check_form()?;
         self.clone().place().map(drop)
     }
 
@@ -171,6 +170,7 @@ impl Output {
 
     /// The place that the path stands for, checked as by [`Output::check`].
     pub(super) fn place(self) -> Result<FilePlace, WriteError> {
+        self.check_form()?;
         let real = follow(&self.path).map_err(|source| WriteError::io("create", &self.path, source))?;
         let place = FilePlace { output: self, real };
         place.check()?;

@@ -6,16 +6,16 @@
 //! curves wrong. A closed yarn is written as a curve that ends where it begins. A spline of any
 //! other tension is written as Bézier curves of the same shape. For programs that read straight
 //! lines alone, any spline can be written as the lines between its control points. Such programs
-//! are simulators. The curves therefore have the attributes of deformable bodies: their thickness
-//! at each point, and their density, if the yarns have a tex.
+//! are simulators. The curves therefore have the attributes of deformable bodies: they collide, and
+//! have a thickness at each point and, if the yarns have a tex, a mass.
 //!
 //! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org. Alliance for OpenUSD, "Deformable Body
 //! Physics" (a proposal).
 
-use std::f64::consts::PI;
 use std::fmt::Display;
 use std::io::Write;
 
+use glam::DVec3;
 use texere_core::definitions::{neighbours, tangent_factor};
 use texere_core::{ControlPoint, Material, Yarns};
 
@@ -130,6 +130,13 @@ impl<'a> Curve<'a> {
         std::iter::once(first).chain(others).flatten().flatten()
     }
 
+    /// The mass of the lines between the curve's points, kg. A tex is a gram in a kilometre.
+    fn mass(self, tex: f32) -> f64 {
+        let places = || self.vertices().map(|place| DVec3::from_array(place.map(f64::from)));
+        let length: f64 = places().zip(places().skip(1)).map(|(from, to)| from.distance(to)).sum();
+        f64::from(tex) * 1e-9 * length
+    }
+
     /// The diameter at each control point, mm: that of a circle as large as the ellipse of the
     /// yarn's width and height. A closed curve has its first diameter again at its end.
     fn diameters(self) -> impl Iterator<Item = f32> + 'a {
@@ -149,17 +156,6 @@ fn extent(own: &Own<'_>) -> [[f32; 3]; 2] {
     }
     let radius = own.curves().flat_map(Curve::diameters).fold(0.0, f32::max) / 2.0;
     [extent[0].map(|low| low - radius), extent[1].map(|high| high + radius)]
-}
-
-/// The density of the yarns of a material, kg/mm³, if their tex is known: that of a yarn whose
-/// section is the mean of theirs. A tex is a gram in a kilometre.
-fn density(own: &Own<'_>, material: &Material) -> Option<f64> {
-    let tex = f64::from(material.tex?);
-    let areas =
-        own.curves().flat_map(Curve::diameters).map(|diameter| f64::from(diameter).powi(2) * PI / 4.0);
-    let (count, sum) = areas.fold((0_u32, 0.0), |(count, sum), area| (count + 1, sum + area));
-    let kg_per_mm = tex * 1e-9;
-    Some(kg_per_mm * f64::from(count) / sum)
 }
 
 /// A point or a colour as the format writes it.
@@ -204,7 +200,7 @@ impl<W: Write> Stage<W> {
         };
         let schemas = match own.basis {
             Basis::Linear => {
-                "        prepend apiSchemas = [\"PhysicsCurvesDeformableSimAPI\", \"MaterialBindingAPI\"]\n"
+                "        prepend apiSchemas = [\"PhysicsCurvesDeformableSimAPI\", \"PhysicsCollisionAPI\"]\n"
             }
             Basis::CatmullRom | Basis::Bezier => "",
         };
@@ -226,23 +222,18 @@ impl<W: Write> Stage<W> {
         self.list("float[] widths", own.curves().flat_map(Curve::diameters), "varying")?;
         self.line("        uniform token wrap = \"nonperiodic\"")?;
         if own.basis == Basis::Linear {
-            self.physics(own, number, material)?;
+            self.physics(own, material)?;
         }
         self.line("    }")
     }
 
     /// Writes what a simulator needs of the yarns of a material.
-    fn physics(&mut self, own: &Own<'_>, number: usize, material: &Material) -> Result<(), WriteError> {
+    fn physics(&mut self, own: &Own<'_>, material: &Material) -> Result<(), WriteError> {
         self.list("float[] physics:thicknesses", own.curves().flat_map(Curve::diameters), "")?;
         self.line("        uniform token physics:thicknesses:elementType = \"point\"")?;
-        let Some(density) = density(own, material) else { return Ok(()) };
-        let yarns = number + 1;
-        self.line(format_args!("        rel material:binding:physics = </cloth/yarns_{yarns}/yarn>"))?;
-        self.line(
-            "\n        def Material \"yarn\" (\n            \
-             prepend apiSchemas = [\"PhysicsCurvesDeformableMaterialAPI\"]\n        )\n        {",
-        )?;
-        self.line(format_args!("            float physics:density = {density}\n        }}"))
+        let Some(tex) = material.tex else { return Ok(()) };
+        self.list("float[] physics:masses", own.curves().map(|curve| curve.mass(tex)), "")?;
+        self.line("        uniform token physics:masses:elementType = \"curve\"")
     }
 
     /// Writes a list of values.

@@ -15,7 +15,6 @@
 use std::fmt::Display;
 use std::io::Write;
 
-use glam::DVec3;
 use texere_core::definitions::{neighbours, tangent_factor};
 use texere_core::{ControlPoint, Material, Yarns};
 
@@ -132,8 +131,11 @@ impl<'a> Curve<'a> {
 
     /// The mass of the lines between the curve's points, kg. A tex is a gram in a kilometre.
     fn mass(self, tex: f32) -> f64 {
-        let places = || self.vertices().map(|place| DVec3::from_array(place.map(f64::from)));
-        let length: f64 = places().zip(places().skip(1)).map(|(from, to)| from.distance(to)).sum();
+        let places = || self.vertices().map(|place| place.map(f64::from));
+        let line = |(from, to): ([f64; 3], [f64; 3])| {
+            from.iter().zip(to).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
+        };
+        let length: f64 = places().zip(places().skip(1)).map(line).sum();
         f64::from(tex) * 1e-9 * length
     }
 

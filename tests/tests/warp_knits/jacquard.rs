@@ -25,6 +25,11 @@ const DIAMETERS: [f64; 2] = [0.08, 0.1];
 /// 0.57 and 0.62.
 const FOLD: f64 = 0.5;
 
+/// The least clearance of any figure at its cut edges. The first and the last interval of a yarn
+/// that is cut off lack the neighbour that bends them in the repeat. Of 670 random figures of two
+/// diameters, one had 0.966 there, and all others more than 0.99.
+const CUT: f64 = 0.95;
+
 /// The bars of the paper's figure 7c: JB1, with a figure of thin, thick and open places, in front
 /// of GB2.
 fn cloth(size: [u32; 2], diameter: f64, colour: impl FnMut(u32, u32) -> u8) -> WarpKnitted {
@@ -65,11 +70,12 @@ fn clear(cloth: &WarpKnitted) -> f64 {
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
     // Of some 150 random figures: the one whose legs differ most in their bends above the cloth,
-    // one whose upper end came nearest to a neighbour, and one whose lower end did.
+    // one whose upper end came nearest to a neighbour, and two whose lower ends did.
     let random = [
         [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2],
         [2, 0, 1, 2, 1, 0, 0, 1, 1, 0, 2, 2, 1, 2, 1, 2, 2, 0],
         [1, 2, 2, 1, 2, 0, 1, 0, 0, 1, 1, 2, 1, 1, 0, 1, 0, 2],
+        [2, 2, 1, 0, 2, 1, 2, 1, 1, 1, 0, 0, 1, 1, 0, 1, 0, 2],
     ];
     let clear_at_edges = |figure: &str, size: [u32; 2], colour: &dyn Fn(u32, u32) -> u8| {
         for diameter in DIAMETERS {
@@ -85,8 +91,8 @@ fn figures_are_as_clear_where_they_are_cut_off() {
     }
 }
 
-/// The loops of any figure are drawn through those below from the start, and its cut edges are
-/// clear.
+/// The loops of any figure are drawn through those below from the start. Its cut edges are clear up
+/// to [`CUT`].
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);
@@ -98,7 +104,7 @@ fn any_figure_rests() {
             prop_assert_eq!(faults(&cloth, &piece, &piece.yarns), Vec::<String>::new());
             prop_assert_eq!(fault("any figure", &cloth, diameter, FOLD), None);
             let clear = clear(&cloth);
-            prop_assert!(clear >= CLEAR, "{} with its cut edges", clear);
+            prop_assert!(clear >= CUT, "{} with its cut edges", clear);
         }
         Ok(())
     };

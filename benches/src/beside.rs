@@ -1,11 +1,12 @@
-//! Makes meshes of saved yarns when it is told to, and prints the time. A program in another
-//! language runs it beside its own calls, by turns, as
-//! `crates/texere-python/benches/overhead.py` does.
+//! Makes meshes of saved yarns whenever another program asks for them, and prints the time that
+//! they took. A benchmark in another language runs this program, and times its own calls and this
+//! program by turns. `crates/texere-python/benches/overhead.py` is such a benchmark.
 //!
 //! `cargo run --release -p texere-bench --bin beside -- FILE.yarns...`
 //!
-//! Each line of the standard input is a number of threads. Each thread makes one mesh once: that of
-//! the first file, of the second file, and so on.
+//! Each line of the standard input is a number of threads. Each thread makes one mesh, once. The
+//! first thread makes the mesh of the first file, the second thread that of the second file, and so
+//! on.
 
 use std::error::Error;
 use std::io::{Write, stdin, stdout};
@@ -29,8 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Makes the mesh of each cloth, in a thread for each if there are several. The time includes
-/// giving the memory back, as it does where Python's last reference goes.
+/// Makes the mesh of each cloth. If there are several cloths, each has a thread of its own. The
+/// memory of each mesh is freed here, so that the measured time includes freeing it. In Python the
+/// time includes it, too, because the last reference to the mesh goes.
 fn made(cloths: &[Yarns], device: &dyn Backend) -> Result<(), PipelineError> {
     let mesh = |yarns| Pipeline::new(yarns).mesh(device).map(drop);
     if let [yarns] = cloths {

@@ -1,4 +1,4 @@
-//! Passes and lists of the CPU's settlers are broken off while they are being made.
+//! The CPU's settlers can be broken off while a pass or a list of neighbours is being made.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -43,10 +43,11 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| *tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
+/// The pass that these tests make.
 const PASS: Pass = Pass { form: Form::Weighted, growth: 1.0, ease: 0.5, momentum: 0.8 };
 
-/// The number of questions that `work` asks. The question of number `last`, if any, is answered by
-/// `Break`.
+/// The number of times that `work` asks whether to go on. The answer to question number `last`, if
+/// any, is `Break`.
 fn questions(last: Option<usize>, work: impl FnOnce(WorkWatch<'_>) -> bool) -> usize {
     let mut asked = 0;
     let broken = work(&mut || {
@@ -65,8 +66,8 @@ fn pass(settler: &mut dyn Settler, last: Option<usize>) -> usize {
     questions(last, |watch| settler.pass_watched(&PASS, watch).expect("a pass").is_break())
 }
 
-/// A list or a pass of a settling that is broken off ends there, and no point has moved. The number
-/// of questions grows with the cloth.
+/// A list or a pass of a settling ends at the question that breaks it off, and then no point has
+/// moved. The number of questions grows with the cloth.
 #[test]
 fn settlings_are_broken_off_within_a_pass() {
     for device in devices() {
@@ -119,7 +120,8 @@ fn settlings_that_are_broken_off_leave_the_places_that_they_kept() {
     }
 }
 
-/// A pass of crossings that is broken off ends there. The number of questions grows with the cloth.
+/// A pass of crossings ends at the question that breaks it off. The number of questions grows with
+/// the cloth.
 #[test]
 fn crossings_are_broken_off_within_a_pass() {
     for device in devices() {

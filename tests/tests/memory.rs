@@ -1,5 +1,5 @@
-//! Host memory against the plan's bound, counted in the allocator. Memory of a GPU's driver is not
-//! counted.
+//! The host memory that is taken stays within the bound that is told beforehand. The allocator
+//! counts what is taken, so memory of a GPU's driver is left out.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ use texere_core::{ControlPoint, Frame, Limits, Origin, Topology, Yarn, Yarns};
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// A single test, so that no other one allocates at the same time.
+/// All checks are one test, so that no other test allocates at the same time.
 #[test]
 fn what_is_taken_is_what_was_told() {
     a_mesh_peaks_within_five_per_cent_of_the_plan();
@@ -48,7 +48,7 @@ fn a_stream_peaks_at_two_chunks() {
     }
 }
 
-/// A writer that keeps nothing but its place.
+/// A writer that keeps no bytes, only its position and the file's end.
 struct Nowhere {
     place: u64,
     end: u64,
@@ -79,7 +79,8 @@ impl Seek for Nowhere {
 }
 
 /// A mesh of 5,000 yarns and 240 MB of vertices is written with chunks of 8 MiB. Besides the
-/// control points and two chunks, a writer may have 3 kB for each yarn, most of it glTF's document.
+/// control points and two chunks, a writer may take 3 kB for each yarn. Most of this is the
+/// document of glTF.
 fn a_file_peaks_at_two_chunks_in_any_format() {
     let mut yarns = Yarns::builder();
     for end in 0..5000 {
@@ -105,7 +106,8 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
 
 fn a_mesh_peaks_within_five_per_cent_of_the_plan() {
     let yarns = cases::winding(60_000, Yarn::default());
-    // The serial reference also keeps the rings of a chunk, as the paper does.
+    // The serial reference is left out, because it also keeps the rings of a chunk, as the paper
+    // does.
     let devices = texere::devices().found.into_iter().map(|device| device.name);
     for name in devices.filter(|name| name != "cpu-serial") {
         let device = texere::open(&name).unwrap();

@@ -1,10 +1,12 @@
-//! Measures how soon calls of the C library end once they are asked to: each call many times, asked
-//! at a random moment of the time that it takes.
+//! Measures how soon calls of the C library end after they are asked to end. It makes each call
+//! many times, and asks it to end at a random moment of the time that it takes.
 //!
 //! `cargo run --release -p texere-bench --features capi,gpu --bin c-cancel -- [ROUNDS [CALL]]`
 //!
-//! A line has the call, the time that it takes, and the times from `texere_run_cancel` to its
-//! return: their median, the longest, and how long the call had run before the longest.
+//! Each line of the output is about one call. It has the time that the call takes if it is not
+//! asked to end. The median and the longest of the times from `texere_run_cancel` to the call's
+//! return follow. Then comes how long the call had run when it was asked in the round of the
+//! longest time, and last how many rounds were measured.
 
 mod calls;
 
@@ -18,13 +20,13 @@ use texere_bench::median;
 use texere_c::texere_status::{TEXERE_CANCELLED, TEXERE_OK};
 use texere_c::*;
 
-/// The latest moment at which a call is asked to end, so that a round does not take longer.
+/// The longest time that a call runs before it is asked to end. It keeps the rounds short.
 const MOST: Duration = Duration::from_secs(5);
 
-/// A call that takes long, and its name.
+/// The name of a call that takes long, and the call.
 type Call = (&'static str, Box<dyn Fn(*const texere_run) -> texere_status>);
 
-/// Numbers by chance (Steele, Lea and Flood 2014: SplitMix).
+/// Random numbers by SplitMix (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -35,13 +37,14 @@ impl Random {
         mixed ^ mixed >> 31
     }
 
-    /// A number from 0 to 1.
+    /// A random number from 0 to 1.
     fn share(&mut self) -> f64 {
         self.next() as f64 / u64::MAX as f64
     }
 }
 
-/// A knit of `size` by `size` knit and purl stitches by chance, `copies` of it each way.
+/// The text of a knit of `size` by `size` stitches, each knit or purl at random. The knit is
+/// repeated `copies` times each way.
 fn knit(size: usize, copies: usize) -> String {
     let mut random = Random(1);
     let row =
@@ -66,7 +69,8 @@ fn rest(name: &'static str, text: &str, device: *mut texere_device) -> Result<Ca
     let design = design(text)?;
     let rest = move |run| {
         let mut cloth = null_mut();
-        // SAFETY: the handles live as long as the program, the place as long as the call.
+        // SAFETY: the handles live as long as the program, and the variable `cloth` as long as the
+        // call.
         unsafe {
             let status = texere_cloth_rest(design, device, run, &mut cloth);
             texere_cloth_free(cloth);
@@ -127,7 +131,7 @@ fn calls() -> Result<Vec<Call>, Box<dyn Error>> {
     }
 }
 
-/// Calls of renderers; none without the feature `gpu`.
+/// Calls of renderers. There are none without the feature `gpu`.
 fn pictures(yarns: *mut texere_yarns) -> Result<Vec<Call>, Box<dyn Error>> {
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
@@ -154,10 +158,10 @@ fn pictures(yarns: *mut texere_yarns) -> Result<Vec<Call>, Box<dyn Error>> {
     }
 }
 
-/// Calls, and asks the call to end after `delay`: the time from then to its return, if it was still
-/// under way.
+/// Makes a call, and asks it to end after `delay`. Returns the time from the request to the call's
+/// return, or None if the call had returned before the request.
 fn asked(call: &Call, delay: Duration) -> Result<Option<Duration>, Box<dyn Error>> {
-    // SAFETY: the place lives as long as the call.
+    // SAFETY: the variable for the handle lives as long as the call.
     let run = made(|out| unsafe { texere_run_new(out) })?;
     let address = run.expose_provenance();
     let (ended, status, asked) = std::thread::scope(|scope| {
@@ -177,7 +181,8 @@ fn asked(call: &Call, delay: Duration) -> Result<Option<Duration>, Box<dyn Error
     if status != TEXERE_OK && status != TEXERE_CANCELLED {
         done(status)?;
     }
-    // A call that came to its end in spite of it was asked too late, or did not hear.
+    // A call may also end with TEXERE_OK. Then the request came too late, or the call did not
+    // notice it.
     Ok((ended > asked).then(|| ended - asked))
 }
 

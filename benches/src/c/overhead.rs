@@ -1,10 +1,11 @@
-//! Measures what the C library adds to a mesh: one plain weave, made in the caller's memory from C
-//! and from Rust, by turns in one process.
+//! Measures how much the C library adds to the time of a mesh. One process makes the mesh of a
+//! plain weave in the caller's memory, from C and from Rust by turns.
 //!
 //! `cargo run --release -p texere-bench --features capi --bin c-overhead -- [ENDS PICKS ROUNDS]`
 //!
-//! Rust makes the mesh in chunks of the usual size and in those of the C library. Each round makes
-//! all three in another order, in the same memory, which has been written before.
+//! Rust makes the mesh in chunks of its usual size, and also in about as many chunks as the C
+//! library has. So each round makes three meshes, one from C and two from Rust. The order changes
+//! from round to round. All meshes are made in the same memory, which has been written before.
 
 mod calls;
 
@@ -28,7 +29,7 @@ struct Memory {
 }
 
 impl Memory {
-    /// The first so many vertices and indices.
+    /// The first `vertices` vertices and the first `indices` indices.
     fn part(&mut self, [vertices, indices]: [u64; 2]) -> MeshMut<'_> {
         MeshMut {
             vertices: &mut self.vertices[..vertices as usize],
@@ -37,7 +38,7 @@ impl Memory {
     }
 }
 
-/// A mesh from Rust: its plan, cut by limits.
+/// What a mesh from Rust needs: among others its plan, and the chunks into which `limits` cut it.
 struct Rust<'a> {
     yarns: &'a Yarns,
     device: &'a dyn Backend,
@@ -60,7 +61,7 @@ impl<'a> Rust<'a> {
     }
 }
 
-/// A mesh from C: its plan, and its sizes.
+/// What a mesh from C needs: its plan, and the sizes of the mesh.
 struct C {
     plan: *mut texere_plan,
     counts: texere_counts,
@@ -103,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (texere::open("cpu")?, texere::read_from("text.toml", text.as_bytes(), none)?.placed(0.0)?);
     let c = C::new(&text)?;
     let usual = Rust::new(cloth.yarns(), &*device, Limits::default())?;
-    // As many chunks as the C library has.
+    // Halves the chunks of `same` until there are as many as the C library has, or more.
     let mut mib = 64;
     let mut same = Rust::new(cloth.yarns(), &*device, Limits::default())?;
     while same.chunks.len() < c.counts.chunks as usize && mib > 1 {
@@ -124,7 +125,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [0, 1].map(|kind| sizes.iter().map(|sizes| sizes[kind] as usize).max().unwrap_or(0));
     let mut memory = Memory { vertices: vec![Vertex::default(); vertices], indices: vec![0; indices] };
     let mut times = [const { Vec::new() }; 3];
-    // The first round writes all memory once.
+    // The first round is not timed. It writes all memory once.
     for round in 0..=rounds {
         for turn in 0..3 {
             let who = (round + turn) % 3;

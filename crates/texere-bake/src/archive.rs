@@ -1,12 +1,13 @@
-//! U3MA: the files of a U3M material in one file. It is a ZIP file with more rules than ZIP has.
+//! U3MA: the files of a U3M material in one file. A U3MA file is a ZIP file that keeps to more
+//! rules than ZIP has.
 
 use std::io::{self, Write};
 
-/// The version that wrote an entry: 6.3 on FAT.
+/// The field of an entry that says which version of ZIP wrote it: 6.3, on the file system FAT.
 const WRITTEN_BY: u16 = 0x003f;
-/// The version that reads an entry: 2.0.
+/// The field of an entry that says which version of ZIP a reader needs: 2.0.
 const READ_BY: u16 = 0x14;
-/// File names are UTF-8.
+/// The flag of an entry that says that its name is UTF-8.
 const UTF8: u16 = 1 << 11;
 
 /// A file's entry in the central directory.
@@ -17,10 +18,11 @@ struct Entry {
     offset: u32,
 }
 
-/// Writes `files` (name and content) as U3MA. Maps are compressed already, so that files are stored
-/// as they are. `time` and `date` are those of MS-DOS, in UTC.
+/// Writes `files` (name and content) as U3MA. Files are stored as they are, because maps are
+/// compressed already. `time` and `date` are UTC, in the format of MS-DOS.
 ///
-/// **Errors**: those of `out`, and [`io::ErrorKind::FileTooLarge`] for more than 4 GiB.
+/// **Errors**: the errors of `files` and of `out`, and [`io::ErrorKind::FileTooLarge`] for more
+/// than 4 GiB.
 ///
 /// **Source**: u3m_additional_spec_u3ma.txt of U3M 1.1: no extra fields, no comments, no
 /// attributes.
@@ -72,13 +74,13 @@ pub(crate) fn write(
 }
 
 impl Entry {
-    /// The fields that an entry has before its content and in the directory.
+    /// The fields that an entry has twice: before its content, and in the directory.
     fn both(&self, [time, date]: [u16; 2]) -> Vec<u8> {
         let stored = 0_u16;
         let mut bytes: Vec<u8> =
             [READ_BY, UTF8, stored, time, date].into_iter().flat_map(u16::to_le_bytes).collect();
         bytes.extend([self.crc, self.bytes, self.bytes].into_iter().flat_map(u32::to_le_bytes));
-        // Names are of this crate, and short. There is no extra field.
+        // The names are short, because this crate makes them. There is no extra field.
         bytes.extend([self.name.len() as u16, 0].into_iter().flat_map(u16::to_le_bytes));
         bytes
     }

@@ -2,10 +2,11 @@
 
 use crate::BakeError;
 
-/// The longest side of maps, texels: what graphics programs load.
+/// The most texels along a side of a map. Graphics programs load maps up to this size.
 pub(crate) const SIDE_MOST: u32 = 16_384;
 
-/// The most texels of a map. All maps of a side take some 90 bytes a texel, and 3 GB in all.
+/// The most texels of a map. All maps of one side of the cloth take some 90 bytes a texel, so they
+/// take 3 GB at this limit.
 const TEXELS_MOST: u64 = 1 << 25;
 
 /// A rectangle of cloth.
@@ -15,7 +16,7 @@ pub(crate) struct Area {
     pub(crate) low: [f64; 2],
     /// Width and height, mm.
     pub(crate) size: [f64; 2],
-    /// Whether the cloth goes on after the rectangle as it does at the opposite edge.
+    /// Whether the rectangle tiles: what leaves it at one edge comes in at the opposite one.
     pub(crate) tiles: bool,
 }
 
@@ -31,8 +32,8 @@ impl Area {
         }
     }
 
-    /// Width and height of the area's maps, texels of about `mm`. A whole number of texels fits the
-    /// area, so that they are not quite square.
+    /// The width and height of the area's maps, in texels of about `mm`. A whole number of texels
+    /// fits the area, so texels are not quite square.
     ///
     /// **Errors**: [`BakeError::Area`], [`BakeError::Texel`], [`BakeError::TooLarge`].
     pub(crate) fn texels(&self, mm: f64) -> Result<[u32; 2], BakeError> {
@@ -40,7 +41,7 @@ impl Area {
         if !(mm.is_finite() && mm > 0.0) {
             return Err(BakeError::Texel { mm });
         }
-        // A number beyond all u64 becomes the largest one.
+        // A number that is too large for a `u64` becomes the largest `u64`.
         let [width, height] = self.size.map(|side| (side / mm).round().max(1.0) as u64);
         let side = u64::from(SIDE_MOST);
         if width > side || height > side || width * height > TEXELS_MOST {

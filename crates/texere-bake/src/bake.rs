@@ -1,4 +1,4 @@
-//! From a design to its maps.
+//! Bakes a design to maps.
 
 use std::ops::ControlFlow;
 
@@ -9,33 +9,37 @@ use texere_render::{Camera, Quality, Renderer, Scene};
 
 use crate::{Area, BakeError, BakedCloth, Maps, Side};
 
-/// Sides of tubes. Their corners stand .009 radii off the middles of their sides, which is less
-/// than a tenth of a texel of the usual size. With 6, as in usual meshes, the twill of
-/// `maps_look_like_the_geometry` differs by .15 from its geometry with 24.
+/// The number of sides of the yarns' tubes. Polygon sections have a number of sides of their own.
+/// The corners of a tube of 24 sides lie .009 radii further out than the middles of its sides. This
+/// is less than a tenth of a texel of the usual size. With 6 sides, as in usual meshes, the twill
+/// of `maps_look_like_the_geometry` differs by .15 from its geometry with 24.
 const SIDES: u32 = 24;
 
-/// Texels across the mean radius of the yarns, if no size is given.
+/// The number of texels across the mean radius of the yarns, if no size of texels is given.
 const TEXELS_A_RADIUS: f64 = 8.0;
 
-/// The longest side of maps, texels, if no size is given.
+/// The most texels along the longer side of the maps, if no size of texels is given.
 const SIDE_USUAL: f64 = 2048.0;
 
-/// The longest side of the preview, pixels.
+/// The longer side of the preview, pixels.
 const PREVIEW: f64 = 512.0;
 
-/// The shares of the progress at which the yarns are at rest, and the face is baked.
+/// The share of the progress at which the yarns are at rest.
 const RESTED: f64 = 0.4;
+/// The share of the progress at which the face is baked.
 const FRONT: f64 = 0.7;
 
 /// What is baked, and how finely.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct BakeOptions {
-    /// The size of a texel, mm. If none is given, the mean radius of the yarns has eight texels,
-    /// and the maps 2,048 along their longer side at most.
+    /// The size of a texel, mm. If none is given, texels are an eighth of the mean radius of the
+    /// yarns, or larger if the maps would otherwise have more than 2,048 texels along their longer
+    /// side.
     pub texel_mm: Option<f64>,
-    /// A rectangle of the cloth: its lower left corner, and its width and height, mm. It does not
-    /// tile. If none is given, one repeat is baked, or the whole of a knit that does not repeat.
+    /// A rectangle of the cloth: its lower left corner, and its width and height, mm. The maps of a
+    /// rectangle do not tile. If no rectangle is given, one repeat is baked, or the whole of a knit
+    /// that does not repeat.
     pub area: Option<[[f64; 2]; 2]>,
     /// The tension of the yarns' splines, from 0 to below 1.
     pub tension: f32,
@@ -69,8 +73,8 @@ impl BakeOptions {
     }
 }
 
-/// Bakes a design. Its yarns come to rest on `device`, as [`Design::rest`] does it, and `renderer`
-/// draws them. `progress` gets the share of the work that is done, from 0 to 1. `Break` ends it.
+/// Bakes a design. [`Design::rest`] brings its yarns to rest on `device`, and `renderer` draws
+/// them. `progress` gets the share of the work that is done, from 0 to 1. `Break` ends the work.
 ///
 /// **Errors**: [`BakeError`].
 pub fn bake(
@@ -117,7 +121,8 @@ pub fn bake(
     })
 }
 
-/// The design of a tile, if a tile is wanted and the structure repeats.
+/// Gives the design the structure of a tile, and returns both. If the options ask for a rectangle,
+/// or if the structure does not repeat, the design stays as it is, and there is no tile.
 fn tiled(mut design: Design, options: &BakeOptions) -> Result<(Design, Option<Tile>), BakeError> {
     if options.area.is_some() {
         return Ok((design, None));
@@ -148,7 +153,7 @@ fn area(cloth: &Cloth, tile: Option<&Tile>, options: &BakeOptions) -> Area {
     }
 }
 
-/// All of a cloth, with what reaches beyond its wales and courses.
+/// The area of a whole cloth, with the yarn that reaches beyond its wales and courses.
 fn whole(structure: &Structure, yarns: &Yarns) -> Area {
     let extent = texere_render::Extent::of(yarns);
     let [low, high] = [extent.low, extent.high].map(|corner| [0, 1].map(|axis| f64::from(corner[axis])));
@@ -157,7 +162,8 @@ fn whole(structure: &Structure, yarns: &Yarns) -> Area {
     Area { low, size: [0, 1].map(|axis| high[axis] - low[axis]), tiles: false }
 }
 
-/// A lit picture of the face: its size in pixels, and red, green and blue of each.
+/// A lit picture of the face: its width and height in pixels, and the red, green and blue of each
+/// pixel.
 fn preview(scene: &mut Scene, area: &Area) -> Result<([u32; 2], Vec<u8>), BakeError> {
     let longer = area.size[0].max(area.size[1]);
     let size = area.size.map(|side| (side / longer * PREVIEW).round().max(1.0) as u32);
@@ -201,8 +207,8 @@ mod tests {
         )
     }
 
-    /// The share of texels that a tile's maps show otherwise than the maps of the tile `by` texels
-    /// further on, which are as large.
+    /// Bakes a tile twice, the second time with its area moved by `by` texels. Returns the share of
+    /// the texels that differ between the two, at equal places of the cloth.
     fn moved(structure: &Structure, texel_mm: f64, by: [u32; 2], side: Side) -> f64 {
         let tile = structure.tile().unwrap().unwrap();
         let design = Design::of("tile", tile.structure.clone());
@@ -241,12 +247,12 @@ mod tests {
         f64::from(off) / f64::from(width * height)
     }
 
-    /// The maps of a tile that begins elsewhere are the tile's own maps, moved on round its edges:
-    /// no texel shows where the tile begins. A sample on the edge of a yarn may fall to either
-    /// side, and gaps take on what lies round them.
+    /// If a tile begins elsewhere, it has the same maps, moved round its edges. No texel shows
+    /// where the tile begins. A few texels may differ: a sample on the edge of a yarn may fall to
+    /// either side, and gaps take on what lies round them.
     #[test]
     fn a_tile_may_begin_anywhere() {
-        // The last maps have more than one piece, across and down.
+        // The last maps are drawn in more than one piece, both across and down.
         for (name, structure, texel_mm, side, by) in [
             ("twill", twill(), 0.017, Side::Front, [23, 11]),
             ("tuck", tuck(), 0.017, Side::Front, [23, 11]),

@@ -12,10 +12,11 @@ use crate::images::Map;
 use crate::u3m::{About, Visual};
 use crate::{BakeError, Maps, archive, mtlx, u3m};
 
-/// The longest name of a material in the names of its files, letters.
+/// The most letters of the design's name that the names of its files keep.
 const NAME_MOST: usize = 60;
 
-/// A baked cloth: maps of its face and of its back, and what a program that shows cloth asks for.
+/// A baked cloth: maps of its face and of its back, and what else a program that shows cloth asks
+/// for, such as weight and thickness.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct BakedCloth {
@@ -25,7 +26,7 @@ pub struct BakedCloth {
     pub front: Maps,
     /// The back, as it is seen from behind.
     pub back: Maps,
-    /// Whether the maps go on at their edges.
+    /// Whether the maps tile: what leaves them at one edge comes in at the opposite one.
     pub tiles: bool,
     /// Whether the cloth is woven; otherwise it is a knit.
     pub is_woven: bool,
@@ -33,18 +34,20 @@ pub struct BakedCloth {
     pub weight: Option<f64>,
     /// Thickness from the lowest yarn to the highest, mm.
     pub thickness_mm: f64,
-    /// Width and height of the preview, pixels, and its red, green and blue.
+    /// Width and height of the preview, pixels, and the red, green and blue of each pixel.
     pub preview: ([u32; 2], Vec<u8>),
     /// The materials of the yarns.
     pub(crate) yarns: Vec<Material>,
 }
 
 impl BakedCloth {
-    /// Writes the material's maps and documents into a new folder at `path`. There is either all of
-    /// it or nothing. Returns the names of the documents: U3M, U3MA and MaterialX.
+    /// Writes the material's maps and documents into a new folder at `path`. The folder appears
+    /// with all its files, or not at all. Returns the names of the documents: U3M, U3MA and
+    /// MaterialX.
     ///
     /// **Errors**: [`BakeError::Write`] if there is something at `path` already that is not an
-    /// empty folder, or if the file system refuses, and [`BakeError::Image`].
+    /// empty folder, or if the file system refuses, and [`BakeError::Image`] if a file in the
+    /// folder can't be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<[String; 3], BakeError> {
         let name = file_name(&self.name);
         let documents = ["u3m", "u3ma", "mtlx"].map(|ending| format!("{name}.{ending}"));
@@ -105,7 +108,7 @@ impl BakedCloth {
         u3m::document(&about, [visual("front", &self.front, preview), visual("back", &self.back, none)])
     }
 
-    /// What the numbers of the maps of yarns stand for.
+    /// The content of `yarns.json`: the yarns that the numbers in the maps of yarns stand for.
     fn listed(&self, longest: f32) -> Value {
         let side = |maps: &Maps| {
             let yarns = maps.yarns.iter().enumerate().map(|(number, (origin, material))| {
@@ -144,12 +147,12 @@ impl BakedCloth {
     }
 }
 
-/// A name that every file system takes: letters, digits, hyphens and underscores.
+/// Turns a name into one that every file system takes: ASCII letters, digits and underscores.
 fn file_name(name: &str) -> String {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
     let name: String = name.chars().take(NAME_MOST).map(plain).collect();
     let name = name.trim_matches('_');
-    // Systems of Microsoft keep names such as CON for themselves.
+    // Windows reserves names such as CON.
     let kept = ["con", "prn", "aux", "nul", "clock"];
     let is_kept = kept.contains(&name.to_lowercase().as_str())
         || (name.len() == 4 && ["com", "lpt"].iter().any(|port| name.to_lowercase().starts_with(port)));
@@ -160,7 +163,7 @@ fn file_name(name: &str) -> String {
     }
 }
 
-/// Time and date as MS-DOS writes them, in UTC. Years from 1980 to 2107 can be written.
+/// Time and date in UTC, in the format of MS-DOS. The format holds the years from 1980 to 2107.
 fn dos_time(now: jiff::Timestamp) -> [u16; 2] {
     let now = now.to_zoned(jiff::tz::TimeZone::UTC);
     let number = |value: i8| value as u16;

@@ -7,7 +7,7 @@ use texere_formats::{Refusal, WriteError};
 use texere_render::RenderError;
 use thiserror::Error;
 
-/// The reason why a cloth can't be baked, or its maps not be written.
+/// The reason why a cloth can't be baked, or its maps can't be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BakeError {
@@ -38,9 +38,9 @@ pub enum BakeError {
         width: u64,
         /// The maps' height, texels.
         height: u64,
-        /// The longest side, texels.
+        /// The most texels along a side.
         side: u32,
-        /// The most texels.
+        /// The most texels of a map.
         limit: u64,
     },
     /// The area shows no yarn.
@@ -55,12 +55,12 @@ pub enum BakeError {
     /// A file can't be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A map can't be encoded.
+    /// A map or a document of the folder can't be encoded or written.
     #[error("can't write {}", .path.display())]
     Image {
-        /// The map's file.
+        /// The file, or the folder of the maps.
         path: PathBuf,
-        /// What the encoder says.
+        /// The error of the encoder or of the file system.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The progress callback asked to stop.

@@ -1,7 +1,8 @@
-//! Gaps of maps, which take on what lies round them.
+//! Fills the gaps of maps with what lies round them.
 
-/// Fills texels that are not `seen` with the mean of their neighbours that are, from the gaps'
-/// edges inwards. A tile's opposite edges are neighbours.
+/// Fills the texels that are not `seen`, from the edges of the gaps inwards. Each of them gets the
+/// mean of its neighbours that are seen or already filled. If the map `tiles`, texels at opposite
+/// edges are neighbours.
 pub(crate) fn fill(texels: &mut [[[f32; 3]; 3]], seen: &[bool], size: [u32; 2], tiles: bool) {
     let [width, height] = size.map(i64::from);
     let neighbours = |at: usize| {

@@ -1,4 +1,4 @@
-//! Maps as PNG and EXR files.
+//! Writes maps as PNG and EXR files.
 
 use std::error::Error;
 use std::fs::File;
@@ -12,7 +12,7 @@ use png::BitDepth;
 
 use crate::{BakeError, Maps};
 
-/// A map's name in the textures' names, and its values.
+/// A map: its name, which is part of the names of its files, and its values.
 pub(crate) struct Map<'a> {
     pub(crate) name: &'static str,
     /// Bits of each channel of a PNG.
@@ -25,17 +25,18 @@ enum Values<'a> {
     Color(&'a [[f32; 3]]),
     /// Directions of length 1.
     Directions(&'a [[f32; 3]]),
-    /// Numbers, and those that PNG shows as black and as white.
+    /// Numbers, and the two numbers that a PNG shows as black and as white.
     Scalar(&'a [f32], [f32; 2]),
     /// Numbers of yarns.
     Yarns(&'a [u32]),
-    /// Two numbers each, and those that PNG shows as white.
+    /// Places on yarns, two numbers each, and for each of the two the number that a PNG shows as
+    /// white.
     Places(&'a [[f32; 2]], [f32; 2]),
 }
 
 impl<'a> Map<'a> {
-    /// All maps of a side. `heights` are those that a PNG of displacement shows as black and white,
-    /// mm, and `longest` the distance along a yarn that a PNG shows as white, mm.
+    /// All maps of a side. `heights` are the two heights that a PNG of displacement shows as black
+    /// and as white, mm. `longest` is the distance along a yarn that a PNG shows as white, mm.
     pub(crate) fn all(maps: &'a Maps, heights: [f32; 2], longest: f32) -> [Self; 8] {
         let map = |name, depth, values| Map { name, depth, values };
         let (eight, sixteen) = (BitDepth::Eight, BitDepth::Sixteen);
@@ -73,7 +74,7 @@ impl<'a> Map<'a> {
         write().map_err(failed)
     }
 
-    /// Red, green and blue of all texels, a byte or two each.
+    /// Red, green and blue of all texels, one or two bytes a channel.
     fn bytes(&self) -> Vec<u8> {
         let is_deep = self.depth == BitDepth::Sixteen;
         let level = |share: f32| {
@@ -91,7 +92,7 @@ impl<'a> Map<'a> {
                 let range = (high - low).max(f32::MIN_POSITIVE);
                 numbers.iter().map(|number| [level((number - low) / range); 3]).collect()
             }
-            // 24 bits, red the lowest, and 0 for none.
+            // The number plus 1 in 24 bits, the lowest ones in red. 0 stands for no yarn.
             Values::Yarns(numbers) => numbers
                 .iter()
                 .map(|number| {

@@ -12,15 +12,19 @@ use crate::gaps::fill;
 use crate::texel::{Look, SAMPLES, Texel};
 use crate::{Area, BakeError, Side, occlusion};
 
-/// Texels, across and down, that are drawn at once. The device then needs some 150 MB.
+/// The most texels across, and the most down, that are drawn at once. The device then needs some
+/// 150 MB.
 const PIECE: u32 = 256;
 
-/// The reach of ambient occlusion, radii of a yarn: that of texere's pictures.
+/// The reach of ambient occlusion, in mean radii of the yarns. texere's pictures have the same
+/// reach.
 const REACH_RADII: f64 = 5.0;
 
-/// What one side of a cloth shows, texel by texel: rows from the top, texels of a row from the left
-/// as that side is seen. Where a texel shows no yarn, its alpha is 0, its yarn is
-/// [`Maps::NO_YARN`], and the other maps hold what lies round it, so that a filtered map has no
+/// What one side of a cloth shows, texel by texel. Rows are listed from the top, and the texels of
+/// a row from the left of the side as it is seen.
+///
+/// Where a texel shows no yarn, its alpha is 0, and its yarn is [`Maps::NO_YARN`]. Its colour,
+/// normal and roughness are then those of what lies round the gap, so that a filtered map has no
 /// fringes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Maps {
@@ -28,34 +32,37 @@ pub struct Maps {
     pub size: [u32; 2],
     /// Width and height of the cloth that is shown, mm.
     pub size_mm: [f64; 2],
-    /// The colour of the yarns without light, linear red, green and blue from 0 to 1.
+    /// The colour of the yarns without light: linear red, green and blue from 0 to 1.
     pub color: Vec<[f32; 3]>,
     /// The share of the texel that shows yarn, from 0 to 1.
     pub alpha: Vec<f32>,
     /// The mean direction out of the yarns, of length 1: x to the right, y up, z towards the eye.
     pub normal: Vec<[f32; 3]>,
-    /// The mean height of the yarns towards the eye, mm, from the plane z = 0. Gaps have the least
-    /// height of all.
+    /// The mean height of the yarns, mm, from the plane z = 0 towards the eye. Gaps have the least
+    /// height of all texels.
     pub height: Vec<f32>,
-    /// The roughness of a microfacet surface, from 0 to 1. It is the fourth root of the mean square
-    /// slope, twice: of the fibres along the surface, and of the normals within the texel.
+    /// The roughness of a microfacet surface, from 0 to 1. It is the root of the width α of the
+    /// surface's microfacets. α² is twice the sum of two mean square slopes: that of the fibres
+    /// along the surface, and that of the normals within the texel.
     ///
     /// **Source**: Burley 2012 (roughness is the root of the width α), Toksvig 2005 (the width of
     /// normals from the length of their mean).
     pub roughness: Vec<f32>,
     /// The share of the light of an even sky that reaches the texel, from 0 to 1: [`occlusion()`].
     pub occlusion: Vec<f32>,
-    /// The yarn in the texel's middle, as a number in [`Maps::yarns`].
+    /// The yarn in the texel's middle: its number in [`Maps::yarns`], counted from 0, or
+    /// [`Maps::NO_YARN`].
     pub yarn: Vec<u32>,
-    /// The place on that yarn: the angle round it as a share of a turn, and the distance along it
-    /// from its first control point, mm. 0 where no yarn is seen.
+    /// The place on the yarn of [`Maps::yarn`]: the angle round the yarn as a share of a turn, and
+    /// the distance along it from its first control point, mm. Both are 0 where no yarn is seen.
     pub uv: Vec<[f32; 2]>,
-    /// What made each yarn, in the order of [`Maps::yarn`], with the yarn's material.
+    /// What made each yarn, and the number of the yarn's material. [`Maps::yarn`] has the numbers
+    /// of yarns in this list.
     pub yarns: Vec<(Origin, u32)>,
 }
 
 impl Maps {
-    /// The yarn of a texel that shows none.
+    /// The number that [`Maps::yarn`] has where no yarn is seen.
     pub const NO_YARN: u32 = u32::MAX;
 
     /// The least and the greatest height, mm.
@@ -65,8 +72,9 @@ impl Maps {
         self.height.iter().fold([f32::INFINITY, f32::NEG_INFINITY], both)
     }
 
-    /// Bakes a side of the cloth in `scene`, which has the yarns `yarns`. `origin` says what made a
-    /// yarn; yarns of one origin and one material get one number.
+    /// Bakes a side of the cloth in `scene`, which has the yarns `yarns`. `origin` turns the origin
+    /// of a yarn of the scene into what made it in the design. Yarns with the same origin and
+    /// material get the same number.
     ///
     /// **Errors**: [`BakeError::Render`], [`BakeError::Memory`], [`BakeError::Empty`],
     /// [`BakeError::Cancelled`].
@@ -140,7 +148,7 @@ impl Maps {
     }
 }
 
-/// The progress of the piece number `done` of `all`.
+/// Turns the progress of one piece, number `done` of `all`, into that of all pieces.
 fn progress_of(
     progress: &mut impl FnMut(f64) -> ControlFlow<()>,
     done: u32,
@@ -149,15 +157,16 @@ fn progress_of(
     move |share| progress((f64::from(done) + share) / f64::from(all))
 }
 
-/// Texels that are drawn at once.
+/// A rectangle of texels that are drawn at once.
 #[derive(Debug, Clone, Copy)]
 struct Piece {
-    /// The first column and row.
+    /// The piece's first column and row among all texels.
     first: [u32; 2],
-    /// Columns and rows.
+    /// The piece's numbers of columns and rows.
     size: [u32; 2],
-    /// The lower left corner of what they show in the cloth, and its width and height, mm.
+    /// The lower left corner of the part of the cloth that the piece shows, mm.
     low: [f64; 2],
+    /// The width and height of this part, mm.
     shown: [f64; 2],
 }
 
@@ -179,7 +188,7 @@ impl Piece {
         Ok(if side == Side::Front { camera } else { camera.turned_over() })
     }
 
-    /// Makes texels of their samples. A row of all texels has `stride`.
+    /// Makes the piece's texels from their samples. A row of `texels` has `stride` texels.
     fn gather(&self, layers: &Layers, look: &Look, texels: &mut [Texel], stride: usize) {
         let [first, rows] = [self.first[1] as usize * stride, self.size[1] as usize];
         let lines = texels[first..first + rows * stride].par_chunks_exact_mut(stride);

@@ -1,13 +1,14 @@
-//! MaterialX: what renderers and studios open.
+//! MaterialX documents, which renderers and studios open.
 
 use std::fmt::Write;
 
 use crate::Maps;
 
-/// The document of a material whose face has `maps`. `heights` are those that the displacement's
-/// PNG shows as black and white, mm. Coordinates of texture are those of a plane in its true size:
-/// one unit is one metre of cloth. The map of occlusion has no input of the surface, since a
-/// renderer works out itself what takes light away; it is there for those that do not.
+/// The document of a material whose face has `maps`. `heights` are the two heights that the PNG of
+/// displacement shows as black and as white, mm. Texture coordinates are those of a plane in its
+/// true size: one unit is one metre of cloth. The map of occlusion is not connected to the surface,
+/// because renderers work out for themselves what takes light away. It is there for programs that
+/// do not.
 pub(crate) fn document(name: &str, maps: &Maps, heights: [f32; 2]) -> String {
     let [width, height] = maps.size_mm.map(|mm| mm / 1000.0);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
@@ -50,6 +51,7 @@ pub(crate) fn document(name: &str, maps: &Maps, heights: [f32; 2]) -> String {
     text
 }
 
+/// The surface, from the nodes that read the maps.
 const SURFACE: &str = r#"  <normalmap name="bumps" type="vector3">
     <input name="in" type="vector3" nodename="normal" />
   </normalmap>
@@ -66,6 +68,7 @@ const SURFACE: &str = r#"  <normalmap name="bumps" type="vector3">
   </standard_surface>
 "#;
 
+/// The displacement and the material, and the end of the document.
 const MATERIAL: &str = r#"  <displacement name="relief" type="displacementshader">
     <input name="displacement" type="float" nodename="height" />
     <input name="scale" type="float" value="1" />
@@ -77,7 +80,7 @@ const MATERIAL: &str = r#"  <displacement name="relief" type="displacementshader
 </materialx>
 "#;
 
-/// A name within a comment, which may not have two hyphens in a row.
+/// A name for use within an XML comment, which may not have two hyphens in a row.
 fn comment(name: &str) -> String {
     let name = name.replace('-', "\u{2010}").replace('&', "&amp;").replace('<', "&lt;");
     name.chars().filter(|letter| !letter.is_control()).collect()

@@ -5,17 +5,19 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Directions in which the horizon is looked for, two opposite ones at a time.
+/// The number of upright planes in which the horizon is looked for, each in two opposite
+/// directions.
 const SLICES: u32 = 8;
 
-/// The most places along each direction: each texel at the usual size of texels and the usual
-/// reach.
+/// The most places that are looked at along each direction. At the usual size of texels and the
+/// usual reach, no texel is passed over.
 const STEPS: u32 = 64;
 
 /// The share of the light of an even sky that reaches each texel of a surface, from 0 to 1.
 /// `height` (mm) and `normal` (x to the right, y up, z out of the surface) have a value for each
-/// texel, rows from the top. `texel_mm` is the width and the height of a texel. Only what lies
-/// within `reach_mm` takes light away. If the map `tiles`, the surface goes on beyond its edges.
+/// texel, row by row from the top. `texel_mm` is the width and the height of a texel. Only what
+/// lies within `reach_mm` takes light away. If the map `tiles`, the surface goes on beyond its
+/// edges.
 ///
 /// **Source**: Jimenez, Wu, Pesce and Jarabo 2016, Practical Realtime Strategies for Accurate
 /// Indirect Occlusion, equation 7: the light between two horizons, weighted by its cosine.
@@ -66,7 +68,7 @@ impl Surface<'_> {
         (sum / f64::from(SLICES)).clamp(0.0, 1.0)
     }
 
-    /// The light in the plane of the vertical and `direction`.
+    /// The light that comes in the upright plane along `direction`.
     fn light_of_slice(&self, place: [i64; 2], normal: DVec3, direction: DVec2) -> f64 {
         let along = direction.extend(0.0);
         let (aside, up) = (normal.dot(along), normal.z);
@@ -83,7 +85,8 @@ impl Surface<'_> {
         length * (arc(back) + arc(ahead)) / 4.0
     }
 
-    /// The angle from the vertical to the highest place in `direction`.
+    /// The angle from the vertical to the horizon in `direction`. The horizon is the place that is
+    /// seen at the steepest angle upwards. It is level if no place is higher than `place`.
     fn horizon(&self, place: [i64; 2], direction: DVec2) -> f64 {
         let own = self.at(place).unwrap_or(0.0);
         let step = self.texel_mm[0].min(self.texel_mm[1]);
@@ -102,7 +105,8 @@ impl Surface<'_> {
         FRAC_PI_2 - steepest.atan()
     }
 
-    /// The height at a column and a row. None beyond the edge of a map that does not tile.
+    /// The height at a column and a row. None if they lie beyond the edge of a map that does not
+    /// tile.
     fn at(&self, [column, row]: [i64; 2]) -> Option<f64> {
         let [width, height] = self.size;
         let is_inside = (0..width).contains(&column) && (0..height).contains(&row);
@@ -118,8 +122,8 @@ impl Surface<'_> {
 mod tests {
     use super::*;
 
-    /// The floor of an endless trench sees the sine of the angle from the vertical to its edges,
-    /// which is the form factor of an endless strip.
+    /// The floor of an endless trench sees an endless strip of sky. In the middle of the floor the
+    /// strip's form factor is the sine of the angle from the vertical to the trench's edges.
     #[test]
     fn the_floor_of_a_trench_sees_the_strip_above_it() {
         let (width, floor, deep) = (400_i64, 20_i64, 0.5_f64);
@@ -128,7 +132,7 @@ mod tests {
             .collect();
         let normal = vec![[0.0, 0.0, 1.0]; height.len()];
         let light = occlusion(&height, &normal, [width as u32, 3], [0.02; 2], 1.28, true);
-        // From the middle the walls stand 21 texels away.
+        // The walls stand 21 texels away from the middle.
         let half = 0.42_f64;
         let exact = half / half.hypot(deep);
         let middle = f64::from(light[(width + width / 2) as usize]);
@@ -141,7 +145,7 @@ mod tests {
         assert!(light[width as usize] > 0.99);
     }
 
-    /// A slope without anything round it sees the part of the sky that its own plane leaves.
+    /// A slope with nothing round it sees the part of the sky that lies above its own plane.
     #[test]
     fn a_slope_sees_the_sky_above_its_plane() {
         for degrees in [0.0_f64, 20.0, 45.0, 70.0] {
@@ -152,7 +156,8 @@ mod tests {
                 (0..side * side).map(|at| (slope * (at % side) as f64 * 0.01) as f32).collect();
             let normal = vec![[lean.sin() as f32, 0.0, lean.cos() as f32]; height.len()];
             let light = occlusion(&height, &normal, [side as u32; 2], [0.01; 2], 0.4, false);
-            // The form factor of a plane for the sky above it, of which the horizon hides a part.
+            // The form factor of a leaning plane for the sky above it. The horizon hides a part of
+            // that sky.
             let exact = (1.0 + lean.cos()) / 2.0;
             let middle = f64::from(light[(side * side / 2) as usize]);
             assert!((middle - exact).abs() < 0.02, "{degrees}: {middle} for {exact}");

@@ -1,4 +1,4 @@
-//! A texel from its samples.
+//! Makes a texel from its samples.
 
 use std::collections::HashMap;
 use std::f32::consts::TAU;
@@ -10,24 +10,25 @@ use texere_render::{Layers, surface_width};
 
 use crate::Side;
 
-/// Samples of a texel, across and down.
+/// The number of samples of a texel across, and the number down.
 pub(crate) const SAMPLES: u32 = 4;
 
-/// Rings of a yarn after which [`Layers::uv`] counts from 0 again.
+/// The number of rings of a yarn after which [`Layers::uv`] counts from 0 again.
 const RINGS_COUNTED: usize = 8_192;
 
 /// The sums over the samples of a texel that show yarn.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Texel {
-    /// Samples that show yarn.
+    /// The number of these samples.
     pub(crate) seen: u32,
     color: Vec3,
     normal: Vec3,
     height: f32,
-    /// The square of the width α of the microfacets.
+    /// The sum of the squares of the fibres' widths α.
     width: f32,
-    /// One more than the number of the yarn in the middle, 0 for none.
+    /// The number of the yarn in the texel's middle, plus 1. 0 stands for no yarn.
     pub(crate) yarn: u32,
+    /// The place on the yarn in the texel's middle, as in [`Maps::uv`](crate::Maps::uv).
     pub(crate) uv: [f32; 2],
 }
 
@@ -40,7 +41,7 @@ impl Texel {
         self.color * self.share()
     }
 
-    /// The mean normal, not of length 1.
+    /// The mean normal. Its length is below 1 if the normals differ.
     pub(crate) fn normal(&self) -> Vec3 {
         self.normal * self.share()
     }
@@ -49,8 +50,8 @@ impl Texel {
         self.height * self.share()
     }
 
-    /// The width α of the texel's microfacets. Its square is that of the fibres, and twice the
-    /// variance of the texel's normals.
+    /// The width α of the texel's microfacets. The square of α is the sum of the square of the
+    /// fibres' α and twice the variance of the texel's normals.
     pub(crate) fn width(&self) -> f32 {
         let length = self.normal().length().clamp(1e-3, 1.0);
         (self.width * self.share() + 2.0 * (1.0 - length) / length).sqrt()
@@ -61,12 +62,14 @@ impl Texel {
 pub(crate) struct Look<'a> {
     yarns: &'a Yarns,
     subdivisions: usize,
-    /// 1 for the face, -1 for the back: the direction of x and z.
+    /// The sign of x and z: 1 for the face, and -1 for the back, which is turned over.
     over: f32,
     /// The number of each yarn, its colour, and the square of the width α of its fibres.
     each: Vec<(u32, Vec3, f32)>,
+    /// The origin and material that each number stands for.
     numbered: Vec<(Origin, u32)>,
-    /// The distance of each ring along its yarn, mm. Yarns that are not seen have none.
+    /// The middle of each ring of each yarn, and its distance along the yarn, mm. Yarns that are
+    /// not seen are not measured.
     rings: Vec<OnceLock<Vec<(DVec3, f32)>>>,
 }
 
@@ -80,14 +83,14 @@ impl<'a> Look<'a> {
         let (mut numbers, mut numbered) = (HashMap::new(), Vec::new());
         let each = yarns.layout().yarns().iter().enumerate().map(|(number, yarn)| {
             let made = (origin(yarn.origin), yarn.material);
-            // Yarns of unknown origin are told apart by their numbers alone.
+            // Each yarn of unknown origin gets a number of its own.
             let known = if made.0 == Origin::Unknown { Some(number) } else { None };
             let number = *numbers.entry((made, known)).or_insert_with(|| {
                 numbered.push(made);
                 numbered.len() as u32 - 1
             });
             let color = Vec3::from(yarns.materials()[yarn.material as usize].linear_rgb());
-            // Twice the mean square slope is the square of the width α.
+            // The square of the width α is twice the mean square slope.
             (number, color, 2.0 * surface_width(yarn).powi(2))
         });
         let each = each.collect();
@@ -100,7 +103,7 @@ impl<'a> Look<'a> {
         self.numbered
     }
 
-    /// The texel at a column and a row, counted among those of `layers`.
+    /// The texel at a column and a row of the piece that `layers` show.
     pub(crate) fn texel(&self, layers: &Layers, [column, row]: [u32; 2]) -> Texel {
         let mut texel = Texel::default();
         for y in 0..SAMPLES {
@@ -127,7 +130,7 @@ impl<'a> Look<'a> {
         texel
     }
 
-    /// The place on a yarn: the share of a turn round it, and the distance along it, mm.
+    /// The place on a yarn: the angle round it as a share of a turn, and the distance along it, mm.
     fn uv(&self, yarn: usize, [angle, along]: [f32; 2], position: [f32; 3]) -> [f32; 2] {
         let rings = self.rings[yarn].get_or_init(|| self.measured(yarn));
         let (whole, part) = (along.floor() as usize, along.fract());

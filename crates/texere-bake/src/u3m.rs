@@ -1,11 +1,11 @@
-//! U3M 1.1: what fashion programs open.
+//! U3M 1.1 documents, which fashion programs open.
 
 use serde_json::{Value, json};
 
 use crate::Maps;
 use crate::images::encoded;
 
-/// A side of a material in its document.
+/// One side of a material, for its document.
 pub(crate) struct Visual<'a> {
     pub(crate) maps: &'a Maps,
     /// `front` or `back`.
@@ -19,10 +19,10 @@ pub(crate) struct Visual<'a> {
 pub(crate) struct About<'a> {
     pub(crate) id: String,
     pub(crate) name: &'a str,
-    /// RFC 3339.
+    /// The time at which the material was made, in the format of RFC 3339.
     pub(crate) time: &'a str,
     pub(crate) thickness_mm: f64,
-    /// g/m².
+    /// Weight, g/m², if it is known.
     pub(crate) weight: Option<f64>,
     /// `Woven` or `Knit`.
     pub(crate) kind: &'static str,
@@ -55,7 +55,7 @@ pub(crate) fn document(about: &About<'_>, [front, back]: [Visual<'_>; 2]) -> Val
     })
 }
 
-/// The size of an image in a document, and its path.
+/// An image in a document: its size, resolution and path.
 pub(crate) fn image(size: [u32; 2], size_mm: [f64; 2], path: &str) -> Value {
     let dpi = [0, 1].map(|axis| f64::from(size[axis]) * 25.4 / size_mm[axis]);
     json!({
@@ -86,7 +86,8 @@ impl Visual<'_> {
             "clearcoat_value": number(0.0),
             "clearcoat_normal": { "constant": level, "texture": null },
             "clearcoat_roughness": number(0.0),
-            // Fibres of cellulose and of polyester have 1.53 to 1.6 (Morton and Hearle 2008).
+            // Fibres of cellulose and of polyester have refractive indices of 1.53 to 1.6 (Morton
+            // and Hearle 2008).
             "ior": number(1.55),
             "metalness": number(0.0),
             "sheen_value": number(0.0),
@@ -102,7 +103,7 @@ impl Visual<'_> {
         })
     }
 
-    /// A map of numbers. `low` and `high` are its black and its white.
+    /// A map of numbers. `low` and `high` are the numbers that its PNG shows as black and as white.
     fn scalar(&self, map: &str, constant: f64, [low, high]: [f64; 2]) -> Value {
         let texture = json!({ "factor": high - low, "offset": low, "image": self.image(map) });
         json!({ "constant": constant, "texture": texture })
@@ -115,7 +116,7 @@ impl Visual<'_> {
         image
     }
 
-    /// The mean colour, encoded as sRGB, the standard's own space.
+    /// The mean colour in sRGB, the colour space of U3M.
     fn mean_color(&self) -> Value {
         let mean = [0, 1, 2].map(|channel| {
             let shown = self.maps.color.iter().zip(&self.maps.alpha);

@@ -1,4 +1,5 @@
-//! The folder of a baked cloth: its documents by their specifications, and its maps read again.
+//! The folder of a baked cloth: its documents keep to their specifications, and its maps come back
+//! from their files.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod cloth;
@@ -16,7 +17,8 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
-/// A texture of the schema of U3M 1.1: its keys, its image, and that its file is there.
+/// Checks a value against the schema of U3M 1.1: its keys, the keys of its texture (`own`), and the
+/// texture's image and file.
 fn texture(folder: &Path, value: &Value, own: &[&str]) {
     assert_eq!(keys(value), ["constant", "texture"]);
     let texture = &value["texture"];
@@ -35,7 +37,7 @@ fn texture(folder: &Path, value: &Value, own: &[&str]) {
     let decoder = png::Decoder::new(BufReader::new(File::open(folder.join(path)).unwrap()));
     let reader = decoder.read_info().unwrap();
     let info = reader.info();
-    // The kinds of PNG that every reader of U3M has to know.
+    // The kind of PNG that every reader of U3M has to know.
     assert_eq!(info.color_type, png::ColorType::Rgb);
     for (side, texels, dpi) in [("width", info.width, "x"), ("height", info.height, "y")] {
         let mm = image[side].as_f64().unwrap();
@@ -44,7 +46,7 @@ fn texture(folder: &Path, value: &Value, own: &[&str]) {
     }
 }
 
-/// The keys that the schema of U3M 1.1 requires, each of which may have no others beside it.
+/// The keys that the schema of U3M 1.1 requires for a side of a material. It allows no others.
 const VISUAL: [&str; 22] = [
     "alpha",
     "anisotropy_rotation",
@@ -121,7 +123,7 @@ fn u3m_is_as_its_schema_says() {
                     _ => texture(&folder, value, &["factor", "image", "offset"]),
                 }
             }
-            // The map's own range gives heights back.
+            // The document's `factor` and `offset` turn the values of the PNG back into heights.
             let height = &visual["displacement"]["texture"];
             let [factor, offset] = ["factor", "offset"].map(|key| height[key].as_f64().unwrap());
             let maps = if side == "front" { &material.front } else { &material.back };
@@ -164,7 +166,7 @@ fn maps_come_back_from_their_files() {
         layer.channel_data.list.iter().map(|channel| channel.sample_data.clone()).collect::<Vec<_>>()
     };
     use exr::prelude::FlatSamples::{F32, U32};
-    // Channels come in the order of their names: B, G, R.
+    // An EXR lists its channels in the order of their names: B, G, R.
     for (map, values) in [("basecolor", &maps.color), ("normal", &maps.normal)] {
         for (number, channel) in exr(map).into_iter().enumerate() {
             let own = values.iter().map(|value| value[2 - number]).collect();
@@ -181,7 +183,7 @@ fn maps_come_back_from_their_files() {
     }
     assert!(exr("yarn")[0] == U32(maps.yarn.clone()));
     assert!(exr("uv")[1] == F32(maps.uv.iter().map(|uv| uv[1]).collect()));
-    // PNG: normals within a step of 16 bits, yarns exactly.
+    // PNG gives normals back within a step of 16 bits, and numbers of yarns exactly.
     for (value, exact) in png_of(&folder.join("textures/back_normal.png")).iter().zip(&maps.normal) {
         for (value, exact) in value.iter().zip(exact) {
             assert!((f32::from(*value) / 65_535.0 * 2.0 - 1.0 - exact).abs() < 2.0 / 65_535.0);
@@ -197,7 +199,7 @@ fn maps_come_back_from_their_files() {
     }
 }
 
-/// A reader of U3MA that accepts only what its specification allows. Returns all files.
+/// Reads U3MA, and accepts only what its specification allows. Returns all files by name.
 fn unpacked(bytes: &[u8]) -> BTreeMap<String, Vec<u8>> {
     let short = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
     let long = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -208,7 +210,7 @@ fn unpacked(bytes: &[u8]) -> BTreeMap<String, Vec<u8>> {
     let (mut files, mut next) = (BTreeMap::new(), 0);
     for _ in 0..count {
         assert_eq!((long(at), short(at + 4), short(at + 6)), (0x0201_4b50, 0x3f, 0x14));
-        // UTF-8 names, stored.
+        // Names are UTF-8, and content is stored without compression.
         assert_eq!((short(at + 8), short(at + 10)), (1 << 11, 0));
         let (crc, packed, size) = (long(at + 16), long(at + 20) as usize, long(at + 24) as usize);
         assert_eq!(packed, size);

@@ -1,5 +1,5 @@
-//! What maps show: they go on at their edges, have the cloth's size and colours, and look like the
-//! geometry under the same light.
+//! What maps show: they have the cloth's size and colours, show its gaps on both sides, and look
+//! like the geometry under the same light.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod cloth;
@@ -15,7 +15,8 @@ use texere_render::{Camera, Layers};
 #[test]
 fn maps_have_the_size_and_the_yarns_of_the_repeat() {
     let material = baked(TWILL, &BakeOptions::default().texel_mm(0.02));
-    // Three threads of the weave and two colours: six ends; three picks.
+    // The weave repeats after three threads, and the colours of the warp after two: six ends and
+    // three picks.
     let size = [60.0 / 22.0, 30.0 / 18.0];
     for (maps, axis) in [(&material.front, 0), (&material.front, 1), (&material.back, 0)] {
         assert!((maps.size_mm[axis] - size[axis]).abs() < 1e-6, "{:?}", maps.size_mm);
@@ -40,15 +41,15 @@ fn maps_have_the_size_and_the_yarns_of_the_repeat() {
             assert!((first - 1e-2..=second + 1e-2).contains(&red), "{red}");
         }
     }
-    // Weight: tex over spacing in both directions, and some crimp.
+    // The weight is tex over spacing, for warp and weft together. Crimp adds to it.
     let flat = 2.2 * (30.0 + 40.0) / 2.0 + 1.8 * 40.0;
     let weight = material.weight.unwrap();
     assert!(weight > flat && weight < 1.3 * flat, "{weight} g/m² for {flat} and crimp");
     assert!(material.is_woven && material.thickness_mm > 0.3);
 }
 
-/// What one side shows through is what the other shows through: gaps of the back are those of the
-/// face, with left and right exchanged. The maps have more than one piece.
+/// The gaps of the back are those of the face, with left and right exchanged. The maps are drawn in
+/// more than one piece.
 #[test]
 fn gaps_go_through() {
     let material = baked(TWILL, &BakeOptions::default().texel_mm(0.008));
@@ -66,13 +67,14 @@ fn gaps_go_through() {
     assert!(off < width * height / 500, "{off} of {} texels differ", width * height);
 }
 
-/// Lambert's light on a linear colour, as sRGB bytes.
+/// A linear colour under Lambert's light, dimmed by `alpha`. The result is linear, too.
 fn lit(color: [f32; 3], normal: [f32; 3], alpha: f32) -> [f32; 3] {
     let light = [-0.48_f32, 0.36, 0.8];
     let cosine = normal.iter().zip(light).map(|(axis, light)| axis * light).sum::<f32>().max(0.0);
     color.map(|linear| linear * (0.15 + 0.85 * cosine) * alpha)
 }
 
+/// Linear colours as sRGB bytes.
 fn bytes(linear: &[[f32; 3]]) -> Vec<u8> {
     let encoded = |linear: f32| {
         let value =
@@ -82,9 +84,9 @@ fn bytes(linear: &[[f32; 3]]) -> Vec<u8> {
     linear.iter().flat_map(|pixel| pixel.map(encoded)).collect()
 }
 
-/// The geometry under a light, drawn with sixteen samples a pixel and averaged after it is lit,
-/// looks like the maps under that light. The mean of FLIP (Andersson et al. 2020) is .009 for the
-/// twill and .015 for the jersey.
+/// Under the same light, the maps look like the geometry. The geometry is drawn with sixteen
+/// samples a pixel, which are averaged after they are lit. The mean of FLIP (Andersson et al. 2020)
+/// is .009 for the twill and .015 for the jersey.
 #[test]
 fn maps_look_like_the_geometry() {
     for (name, text) in [("twill", TWILL), ("jersey", JERSEY)] {
@@ -95,7 +97,7 @@ fn maps_look_like_the_geometry() {
         let resting = design(text).rest(&device).run().unwrap();
         let yarns = resting.yarns();
         let settings = Settings { sides: 24, ..Settings::of(yarns) }.following_fibres(yarns);
-        // The device is this test's own until the scene is gone.
+        // No other test can use the device while this test holds it.
         let renderer = renderer();
         let mut scene = renderer.scene(yarns, &settings).unwrap();
         let fine = maps.size.map(|texels| texels * 4);

@@ -1,5 +1,5 @@
-//! Every writer hands a callback the bytes that it writes to a file, and ends when the callback
-//! says so.
+//! Every writer of the C library gives a callback the same bytes that it writes to a file, and ends
+//! when the callback asks it to.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -26,11 +26,12 @@ const WOVEN: &str = "weave = { notation = \"2/1\", ends = 6, picks = 6 }\nfinish
 const KNIT: &str = "knit = { chart = \"kp\", loop_length_mm = 3.2 }\nfinish.settle = false\n\
     yarns.a.diameter_mm = 0.2\n";
 
-/// A writer to a path, and the writer to a callback of the same bytes.
+/// A call that writes a file to a path.
 type Path<'a> = Box<dyn Fn(*const c_char, usize) -> texere_status + 'a>;
+/// A call that gives the bytes of a file to a callback.
 type Callback<'a> = Box<dyn Fn(texere_write_callback, *mut c_void) -> texere_status + 'a>;
 
-/// Puts bytes where they belong in the file that `user` points to.
+/// Copies bytes to their place in the file, which is the vector that `user` points to.
 unsafe extern "C" fn take(user: *mut c_void, offset: u64, data: *const u8, size: usize) -> i32 {
     // SAFETY: `user` is the test's vector, and the library lends the bytes.
     let (file, bytes) = unsafe { (&mut *user.cast::<Vec<u8>>(), std::slice::from_raw_parts(data, size)) };
@@ -69,9 +70,9 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         ($name:literal, $path:ident($($before:expr),*), $callback:ident($($first:expr),*)) => {
             writers.push((
                 $name,
-                // SAFETY: as above.
+                // SAFETY: all pointers are those of values that live as long as the calls.
                 Box::new(move |path, length| unsafe { $path($($before,)* path, length) }),
-                // SAFETY: as above.
+                // SAFETY: all pointers are those of values that live as long as the calls.
                 Box::new(move |callback, user| unsafe { $callback($($first,)* callback, user) }),
             ))
         };
@@ -111,9 +112,10 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         assert_eq!(refused, TEXERE_CANCELLED, "{name}: {}", message());
         assert!(message().contains("the callback answered 7"), "{name}: {}", message());
     }
-    // Saved yarns are read from memory as they are from their file.
+    // Yarns that are read from the bytes of a `.yarns` file are written as the same bytes again.
+    // Bytes that lack the last one are refused.
     let (name, file) = ("memory.yarns", &seen[5]);
-    // SAFETY: as above.
+    // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {
         let (text, length) = (name.as_ptr().cast(), name.len());
         let again = made(|out| texere_yarns_read_memory(text, length, file.as_ptr(), file.len(), out));

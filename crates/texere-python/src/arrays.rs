@@ -1,15 +1,17 @@
-//! Arrays of Python: those that callers give, which are copied, and views of what an object owns.
+//! Numpy arrays: copies of the arrays that callers give, and views of memory that a Python object
+//! owns.
 
 use numpy::ndarray::{ArrayView, Dimension};
 use numpy::{Element, PyArray, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// A number that a caller's array is converted to.
+/// A type of number to which the values of a caller's array are converted.
 pub(crate) trait Number: Element + Copy {
-    /// The numpy type.
+    /// The name of the numpy type.
     const DTYPE: &'static str;
-    /// The kinds of numpy types that are taken: `b` bool, `i` and `u` whole numbers, `f` floats.
+    /// The kinds of numpy types that are accepted: `b` for bool, `i` and `u` for whole numbers, `f`
+    /// for floats.
     const KINDS: &'static str;
 }
 
@@ -33,7 +35,7 @@ impl Number for bool {
     const KINDS: &'static str = "biu";
 }
 
-/// A caller's array that has been looked at, and not copied yet.
+/// A caller's array whose shape has been checked. Its values are not copied yet.
 #[derive(Debug)]
 pub(crate) struct Given<'py> {
     name: &'static str,
@@ -41,10 +43,10 @@ pub(crate) struct Given<'py> {
     pub(crate) shape: Vec<usize>,
 }
 
-/// The array that `value` is, or that numpy makes of it. `shape` says how many values each
-/// dimension has; None allows any number.
+/// The array `value`, or the array that numpy makes of `value`. `shape` says how many values each
+/// dimension must have; None allows any number. `name` is the argument's name in error messages.
 ///
-/// **Errors**: `TypeError` and `ValueError` for what is no array of numbers of this shape.
+/// **Errors**: `ValueError` for an array of another shape, and the errors of `numpy.asarray`.
 pub(crate) fn given<'py>(
     name: &'static str,
     value: &Bound<'py, PyAny>,
@@ -63,15 +65,18 @@ pub(crate) fn given<'py>(
 }
 
 impl Given<'_> {
-    /// The values, row after row. A bool array takes 0 and 1 as well.
+    /// A copy of the values, row after row. If `T` is `bool`, the whole numbers 0 and 1 are
+    /// accepted, too.
     ///
-    /// **Errors**: `TypeError` for numbers of another kind, `ValueError` for numbers that the type
-    /// does not hold, `MemoryError`.
+    /// **Errors**: `TypeError` for numbers of a kind that `T` does not accept, `ValueError` for
+    /// whole numbers that `bool` or `int64` can't hold, and `MemoryError` if there is no memory for
+    /// the copy.
     pub(crate) fn values<T: Number>(&self) -> PyResult<Vec<T>> {
         let Self { name, array, .. } = self;
         let dtype = array.getattr("dtype")?;
         let kind: char = dtype.getattr("kind")?.extract()?;
-        // An empty list of Python is an array of floats.
+        // Numpy makes an array of floats from an empty list, so the type of an empty array does not
+        // matter.
         if !T::KINDS.contains(kind) && array.len()? > 0 {
             return Err(PyTypeError::new_err(format!("{name} has the type {dtype}, expected {}", T::DTYPE)));
         }
@@ -96,7 +101,7 @@ impl Given<'_> {
     }
 }
 
-/// A read-only array over memory that `owner` owns; it keeps `owner` alive.
+/// A read-only array over memory that `owner` owns. The array keeps `owner` alive.
 ///
 /// # Safety
 ///
@@ -105,7 +110,7 @@ pub(crate) unsafe fn view<'py, T: Element, D: Dimension>(
     owner: &Bound<'py, PyAny>,
     array: ArrayView<'_, T, D>,
 ) -> PyResult<Bound<'py, PyArray<T, D>>> {
-    // SAFETY: the caller vouches for it.
+    // SAFETY: the caller vouches for the memory of `array`.
     let view = unsafe { PyArray::borrow_from_array(&array, owner.clone()) };
     view.call_method1("setflags", (false,))?;
     Ok(view)

@@ -26,9 +26,9 @@ use crate::watch::Run;
 #[derive(Debug)]
 pub(crate) struct Change {
     yarn: u32,
-    /// The vertices of the whole yarn.
+    /// How many vertices the whole yarn has.
     count: usize,
-    /// The number of the first vertex within the yarn.
+    /// The number, within the yarn, of the first vertex that has changed.
     first: usize,
     vertices: Vec<Vertex>,
 }
@@ -62,7 +62,8 @@ impl Change {
         self.count
     }
 
-    /// Which of the yarn's vertices have changed. The others keep their numbers and their places.
+    /// Which of the yarn's vertices have changed, as a slice. The other vertices keep their numbers
+    /// and positions.
     ///
     /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
     /// >>> live.changes() is None
@@ -90,8 +91,8 @@ impl Change {
         column(slf, 0)
     }
 
-    /// Unit normals of the changed vertices, out of the yarn: float32 of shape (n, 3). Does not
-    /// copy.
+    /// Unit normals of the changed vertices, which point out of the yarn: float32 of shape (n, 3).
+    /// Does not copy.
     ///
     /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
     /// >>> live.changes() is None
@@ -109,7 +110,7 @@ impl Change {
     }
 }
 
-/// Three of the six numbers of each vertex, from number `first` on.
+/// Three of the six numbers of each vertex: the position if `first` is 0, the normal if it is 3.
 fn column<'py>(slf: &Bound<'py, Change>, first: usize) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let vertices = &slf.get().vertices[..];
     let words = ArrayView2::from_shape((vertices.len(), 6), cast_slice(vertices)).raise(slf.py())?;
@@ -117,15 +118,16 @@ fn column<'py>(slf: &Bound<'py, Change>, first: usize) -> PyResult<Bound<'py, Py
     unsafe { view(slf.as_any(), words.slice(s![.., first..first + 3])) }
 }
 
-/// Makes again what has changed since the last call, and returns it. None where everything has: at
-/// first, and after a yarn has outgrown its room. `is_known` says whether the last call told all
-/// that had changed by then.
+/// Makes the parts of the mesh again that edits have changed since the last call, and returns the
+/// changed vertices. None says that the whole mesh counts as changed: in the first call, after a
+/// yarn has outgrown its room, and after a call that failed or was stopped. `is_known` says whether
+/// the last call reported all changes up to it.
 pub(crate) fn changes(
     live: &mut Live,
     is_known: &mut bool,
     run: &Run,
 ) -> Result<Option<Vec<Change>>, LiveError> {
-    // It stays false if this call fails or is stopped.
+    // `is_known` stays false if this call fails or is stopped.
     let was_known = std::mem::take(is_known);
     let ControlFlow::Continue(update) = live.update_watched(&mut || run.tell(0.0))? else { return Ok(None) };
     if update.anew || !was_known {
@@ -155,7 +157,8 @@ pub(crate) fn changes(
     Ok(Some(made))
 }
 
-/// Reads vertices of a chunk, each range from the number on that stands beside it.
+/// Reads ranges of a chunk's vertices into the changes in `wanted`. The number beside each change
+/// is the number, within the chunk, of the first vertex of its range.
 fn read(live: &mut Live, chunk: usize, wanted: &mut [(usize, Change)]) -> Result<(), LiveError> {
     let end = wanted.iter().map(|(from, change)| from + change.vertices.len()).max().unwrap_or(0);
     let _ = live.mesh_mut().read_mesh(chunk, &mut |piece| {

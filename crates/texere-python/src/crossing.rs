@@ -7,20 +7,22 @@ use texere::yarn::YarnPlace;
 
 use crate::watch;
 
-/// Rings along a yarn are counted modulo this in [`Layers::uv`].
+/// [`Layers::uv`] counts the rings along a yarn modulo this number.
 const RINGS: f64 = 8192.0;
 
-/// Pixels between two looks at whether Python asks to stop: some milliseconds of one core.
+/// How many pixels are done between two checks whether Python asks to stop. They take one core some
+/// milliseconds.
 const LOOKED: usize = 1 << 14;
 
-/// What a pixel shows of a crossing or a stitch where it shows none.
+/// The value of a pixel that shows no crossing and no stitch.
 const NONE: [i32; 2] = [-1; 2];
 
 /// The crossing (end, pick) or the stitch (wale, course) of each pixel, counted from 0. None if
 /// `run` was stopped.
 ///
-/// It is the crossing or the stitch by which a picked place is named: that of the control point
-/// nearest along the yarn. `subdivisions` are those of the mesh whose rings the layers count.
+/// A pixel gets the crossing or the stitch of the control point that is nearest along the yarn. A
+/// picked place is named by the same crossing or stitch. `subdivisions` is the setting of the mesh
+/// whose rings the layers count.
 pub(crate) fn crossings(
     cloth: &Cloth,
     subdivisions: u32,
@@ -39,9 +41,10 @@ pub(crate) fn crossings(
     is_whole.all(|is_whole| is_whole).then_some(crossings)
 }
 
-/// The place on a yarn that a pixel shows. The layers say which ring it is, modulo [`RINGS`]; of
-/// the rings that it may be, the nearest is taken. Caps and single fibres have no ring: there the
-/// whole yarn is searched.
+/// The place on a yarn that a pixel shows. The layers give the number of its ring modulo [`RINGS`],
+/// which may be the number of several rings. The one nearest to the pixel's position is taken. Caps
+/// and single fibres have no ring. There the whole yarn is searched for the nearest place. None if
+/// the pixel shows no yarn.
 fn place(cloth: &Cloth, subdivisions: u32, shown: &Layers, pixel: usize) -> Option<YarnPlace> {
     let (yarn, position) = (shown.yarn[pixel], shown.position[pixel].map(f64::from));
     if yarn == Layers::NO_YARN {
@@ -65,7 +68,7 @@ fn place(cloth: &Cloth, subdivisions: u32, shown: &Layers, pixel: usize) -> Opti
     nearest.or_else(|| YarnPlace::nearest(yarns, yarn, position))
 }
 
-/// The crossing or the stitch at a place.
+/// The crossing or the stitch at a place, counted from 0, or [`NONE`].
 fn numbers(cloth: &Cloth, place: &YarnPlace) -> [i32; 2] {
     let thread = cloth.design().structure.place(cloth.yarns(), place);
     let crossing = thread.crossing.map(|crossing| [crossing.end, crossing.pick]);

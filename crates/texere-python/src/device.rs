@@ -13,7 +13,7 @@ use texere::{Backend, BackendError};
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Device {
-    /// The name that calls take: ``cpu``, ``opencl:0``, ``wgpu:0``.
+    /// The name that calls take as their argument ``device``: ``cpu``, ``opencl:0``, ``wgpu:0``.
     ///
     /// >>> texere.devices()[-1].name
     /// 'cpu-serial'
@@ -60,8 +60,8 @@ pub(crate) fn devices(py: Python<'_>) -> Vec<Device> {
     })
 }
 
-/// The device of a name. It stays open: its drivers and kernels take longer to load than a mesh to
-/// make.
+/// Opens the device of this name, or returns it if it is open already. Devices stay open, since
+/// loading drivers and kernels takes longer than making a mesh.
 pub(crate) fn open(name: &str) -> Result<Arc<dyn Backend>, BackendError> {
     static OPEN: Mutex<BTreeMap<String, Arc<dyn Backend>>> = Mutex::new(BTreeMap::new());
     let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);

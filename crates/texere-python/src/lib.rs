@@ -1,4 +1,4 @@
-//! texere for Python: the module `texere._texere`, whose names the package `texere` takes over.
+//! texere for Python: the module `texere._texere`, whose names the package `texere` exports again.
 //!
 //! ```text
 //! texere.read ──> Design.rest ──> Cloth.mesh ──> numpy arrays | Mesh.write
@@ -6,13 +6,15 @@
 //!
 //! # How calls work
 //!
-//! - Objects of Python hold values of the facade, shared and never changed, so that any thread may
-//!   use them and any order of freeing is right.
-//! - Arrays are read-only views of memory that such an object owns. Their `base` is that object.
-//! - While Rust works the calling thread has let go of Python ([`watch`]). It looks four times in
-//!   0.2 s whether Python asks to stop.
-//! - Errors of texere are [`error::Error`], with the place in the design's file. Arguments of the
-//!   wrong type or shape are Python's own `TypeError` and `ValueError`.
+//! - Python objects hold values of the crate `texere`. The values are shared and never change,
+//!   except those of `texere.Live`, which one thread at a time may use. So any thread may use the
+//!   other objects, and objects may be freed in any order.
+//! - Arrays are read-only views of memory that a Python object owns. The `base` of an array is that
+//!   object.
+//! - While Rust works, the calling thread lets other Python threads go on ([`watch`]). Every 50 ms
+//!   it checks whether Python asks to stop.
+//! - Errors of texere raise [`error::Error`], with the place in the design's file. Arguments of the
+//!   wrong type or shape raise Python's own `TypeError` and `ValueError`.
 
 mod arrays;
 mod change;

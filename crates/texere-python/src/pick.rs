@@ -1,4 +1,4 @@
-//! What a ray hits.
+//! The place on a yarn that a ray hits.
 
 use pyo3::prelude::*;
 use texere::mesh::Ray;
@@ -31,8 +31,8 @@ impl Hit {
         self.hit.place.yarn
     }
 
-    /// What a weaver or a knitter calls the place, with the material, and the line of a knitting
-    /// program.
+    /// The place in the words of a weaver or a knitter, with the yarn's material. If the yarn comes
+    /// from a knitting program, the line of the program follows.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
@@ -44,7 +44,7 @@ impl Hit {
         &self.name
     }
 
-    /// The point, mm.
+    /// The point that the ray hits, mm.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
@@ -56,7 +56,8 @@ impl Hit {
         self.hit.position.into()
     }
 
-    /// Distance from the ray's origin in lengths of its direction.
+    /// Distance from the ray's origin, in lengths of the ray's direction: in mm if the direction
+    /// has length 1.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> hit = cloth.pick([[20.3, 15.7, 9], [0, 0, -1]])
@@ -68,7 +69,8 @@ impl Hit {
         self.hit.distance
     }
 
-    /// The control interval of the yarn, from 0, and where in it, 0 to 1.
+    /// The control interval of the yarn that the ray hits, counted from 0, and the position along
+    /// the interval, from 0 to 1.
     ///
     /// >>> hit = texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]])
     /// >>> assert hit is not None

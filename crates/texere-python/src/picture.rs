@@ -19,7 +19,7 @@ use crate::error::Raise;
 use crate::watch;
 use crate::yarn::srgb;
 
-/// Where the eye is, and what it sees.
+/// Where a picture is seen from, and which part of the cloth it shows.
 #[derive(Debug)]
 pub(crate) enum View {
     Face,
@@ -30,7 +30,7 @@ pub(crate) enum View {
     Eye { pose: Pose, field_of_view: f32 },
 }
 
-/// What is asked of a picture.
+/// What a caller asks of a picture.
 #[derive(Debug)]
 pub(crate) struct Asked {
     pub(crate) size: [u32; 2],
@@ -39,17 +39,19 @@ pub(crate) struct Asked {
     pub(crate) quality: Quality,
 }
 
-/// The layers that can be asked for beside the picture itself.
+/// The names of the layers that callers can ask for in addition to the picture itself.
 const LAYERS: [&str; 7] = ["depth", "normal", "tangent", "yarn", "uv", "position", "crossing"];
 
-/// The most pixels of a picture. Devices have limits of their own for each side.
+/// The most pixels that a picture may have. Devices also limit the width and the height.
 const PIXELS_MOST: u64 = 1 << 28;
 
 impl View {
-    /// The view of a name. `place` is a point of the cloth and the width that is shown round it,
-    /// mm; `eye` the eye, the point that it looks at, and what is up.
+    /// The view that is called `name`. `place` is a point of the cloth and the width of the cloth
+    /// that is shown round it, mm. `eye` is the eye, the point that it looks at, and the direction
+    /// that is up in the picture.
     ///
-    /// **Errors**: `ValueError` for another name, and for what the view needs and was not given.
+    /// **Errors**: `ValueError` if there is no view of this name, or if the view needs `place` or
+    /// `eye` and it is missing.
     pub(crate) fn new(
         name: &str,
         turn: f32,
@@ -80,7 +82,7 @@ impl View {
     }
 }
 
-/// What lies behind the cloth.
+/// The background that a caller asks for: `ground`, `nothing` or a colour.
 pub(crate) fn background(value: &Bound<'_, PyAny>) -> PyResult<Background> {
     match value.extract::<String>().as_deref() {
         Ok("ground") => Ok(Background::Ground),
@@ -103,7 +105,7 @@ impl Asked {
     }
 }
 
-/// The devices for pictures that are open, by the names they were asked for.
+/// The open devices that make pictures, by the names under which callers asked for them.
 fn renderers() -> MutexGuard<'static, BTreeMap<String, Renderer>> {
     static OPEN: Mutex<BTreeMap<String, Renderer>> = Mutex::new(BTreeMap::new());
     OPEN.lock().unwrap_or_else(PoisonError::into_inner)
@@ -119,8 +121,8 @@ fn renderer(device: &str) -> Result<Renderer, BackendError> {
     Ok(renderer)
 }
 
-/// The settings for a picture of `yarns`. Threads of woven cloth lie so close that they take more
-/// sides.
+/// The mesh settings for a picture of `yarns`. Threads of woven cloth lie so close together that
+/// their tubes get more sides.
 fn settings(yarns: &texere::Yarns) -> Settings {
     let origins = || yarns.layout().yarns().iter().map(|yarn| yarn.origin);
     let is_woven = origins().any(|origin| matches!(origin, Origin::End(_)))
@@ -128,10 +130,11 @@ fn settings(yarns: &texere::Yarns) -> Settings {
     Settings { sides: picture_sides(yarns, is_woven), ..Settings::default() }.following_fibres(yarns)
 }
 
-/// A scene that pictures of the same cloth are made of, and the device that has it.
+/// The scene that was made for a cloth's last picture, and the name of the device that holds it.
+/// Later pictures of the cloth on that device use the scene again.
 pub(crate) type Kept = Mutex<Option<(String, Scene)>>;
 
-/// Whether there is a device for pictures.
+/// Whether this machine has a device that makes pictures.
 pub(crate) fn has_device(py: Python<'_>) -> bool {
     py.detach(|| renderer("auto").is_ok())
 }
@@ -144,7 +147,8 @@ pub(crate) fn png(py: Python<'_>, yarns: &texere::Yarns, kept: &Kept, asked: &As
     Ok(png.into_inner())
 }
 
-/// Makes a picture of a cloth, and a dict of its layers if `layers` asks for any.
+/// Makes a picture of a cloth, and returns its pixels as an array. If `layers` is given, returns a
+/// dict of the pixels and of the layers that it names.
 pub(crate) fn picture<'py>(
     py: Python<'py>,
     cloth: &texere::Cloth,
@@ -175,8 +179,8 @@ pub(crate) fn picture<'py>(
     Ok(all.into_any())
 }
 
-/// Draws a picture, and reads its layers if they are wanted. `kept` holds the scene for the next
-/// picture.
+/// Draws a picture, and reads its layers if `wants_layers` is true. `kept` holds the scene for the
+/// next picture.
 fn drawn(
     py: Python<'_>,
     yarns: &texere::Yarns,
@@ -213,7 +217,7 @@ fn drawn(
     Ok(drawn)
 }
 
-/// The pixels of a picture: with alpha where nothing lies behind the cloth.
+/// The pixels of a picture as an array. If the background is `nothing`, they have an alpha channel.
 fn pixels<'py>(py: Python<'py>, asked: &Asked, made: Picture) -> PyResult<Bound<'py, PyAny>> {
     let [width, height] = made.size.map(|side| side as usize);
     let (channels, bytes) = match asked.background {
@@ -223,7 +227,7 @@ fn pixels<'py>(py: Python<'py>, asked: &Asked, made: Picture) -> PyResult<Bound<
     Ok(bytes.into_pyarray(py).reshape([height, width, channels])?.into_any())
 }
 
-/// Adds the layers that were asked for.
+/// Adds the layers that `asked` names to `all`, except `crossing`, which `picture` adds.
 fn add(all: &Bound<'_, PyDict>, shown: Layers, asked: &[String]) -> PyResult<()> {
     let py = all.py();
     let [width, height] = shown.size.map(|side| side as usize);

@@ -1,25 +1,27 @@
-//! The progress of a call: a bar of tqdm, or a function of the caller's.
+//! Shows the progress of a call: in a progress bar of tqdm, or by calling the caller's function.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Who is told of progress.
+/// Where a call's progress is shown.
 #[derive(Debug)]
 pub(crate) enum Shown {
     /// Nobody.
     Nobody,
-    /// A bar of tqdm that is not drawn yet: short calls draw none.
+    /// A progress bar of tqdm that is not drawn yet, with the text before it. Short calls end
+    /// before it is drawn.
     Waiting(&'static str),
-    /// A bar of tqdm.
+    /// A progress bar of tqdm that has been drawn.
     Bar(Py<PyAny>),
-    /// A function, called with the share that is done.
+    /// A function of the caller's, which is called with the share of the work that is done.
     Function(Py<PyAny>),
 }
 
 impl Shown {
-    /// What the argument `progress` says: True for a bar, if tqdm is installed, False for none, or
-    /// a function. `what` stands before the bar.
+    /// Reads the argument `progress`. True asks for a progress bar, which needs tqdm to be
+    /// installed. False asks for no bar. A function is called with the share that is done. `what`
+    /// is the text before the bar.
     pub(crate) fn asked(progress: &Bound<'_, PyAny>, what: &'static str) -> PyResult<Self> {
         if let Ok(asked) = progress.extract::<bool>() {
             return Ok(if asked { Self::Waiting(what) } else { Self::Nobody });
@@ -45,7 +47,7 @@ impl Shown {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar, if one has been drawn.
     pub(crate) fn close(&self, py: Python<'_>) -> PyResult<()> {
         match self {
             Self::Bar(bar) => bar.call_method0(py, "close").map(|_| ()),
@@ -54,7 +56,7 @@ impl Shown {
     }
 }
 
-/// A bar of tqdm, if that is installed.
+/// A new progress bar of tqdm, or [`Shown::Nobody`] if tqdm is not installed.
 fn bar(py: Python<'_>, what: &str) -> PyResult<Shown> {
     let Ok(tqdm) = py.import("tqdm.auto") else { return Ok(Shown::Nobody) };
     let options = PyDict::new(py);

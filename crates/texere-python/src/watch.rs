@@ -1,4 +1,4 @@
-//! Work that lets go of Python, shows its progress, and ends when Python asks.
+//! Runs work that lets other Python threads go on, shows its progress, and ends when Python asks.
 
 use std::any::Any;
 use std::error::Error as StdError;
@@ -14,20 +14,20 @@ use pyo3::prelude::*;
 
 use crate::error::{Error, Raise};
 
-/// How often a call that works looks whether Python asks to stop. Work ends within one of its own
-/// steps after that; `test_interrupt.py` measures both together against 0.2 s.
+/// The time between two checks whether Python asks a call to stop. When Python asks, the work ends
+/// after its present step. `test_calls.py` tests that it ends early.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// How far a call has come, and whether it is to end.
+/// How much of a call's work is done, and whether the call is to end.
 #[derive(Debug, Default)]
 pub(crate) struct Run {
     stopped: AtomicBool,
-    /// The bits of an `f64` from 0 to 1.
+    /// The share of the work that is done: the bits of an `f64` from 0 to 1.
     share: AtomicU64,
 }
 
 impl Run {
-    /// Notes the share of the work that is done. `Break` where the call is to end.
+    /// Stores the share of the work that is done. Returns `Break` if the call is to end.
     pub(crate) fn tell(&self, share: f64) -> ControlFlow<()> {
         self.share.store(share.to_bits(), Ordering::Relaxed);
         if self.stopped.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -38,12 +38,13 @@ impl Run {
     }
 }
 
-/// Does `work` in a thread of its own while Python goes on. Signals reach only Python's main
-/// thread, and only when it looks: a `KeyboardInterrupt` is raised once `work` has ended. `shown`
-/// gets the share that is done.
+/// Does `work` in a thread of its own. Other Python threads go on meanwhile. Python handles signals
+/// only in its main thread, and only when that thread checks for them. The calling thread checks at
+/// intervals of [`LOOK`]. After Ctrl-C it asks `work` to end, and raises `KeyboardInterrupt` once
+/// `work` has ended. `shown` is called with the share of the work that is done.
 ///
-/// **Errors**: that of `work`, as an exception; what a signal's handler or `shown` raises; an
-/// [`Error`] if `work` panics, or in a process that was forked from one that has worked.
+/// **Errors**: the error of `work`, as an exception; what a signal's handler or `shown` raises; an
+/// [`Error`] if `work` panics, or if this process was forked from one in which texere has worked.
 pub(crate) fn work<T: Send, E: StdError + Send + 'static>(
     py: Python<'_>,
     mut shown: impl FnMut(Python<'_>, f64) -> PyResult<()> + Send,
@@ -55,7 +56,8 @@ pub(crate) fn work<T: Send, E: StdError + Send + 'static>(
     let (ended, asked) = py.detach(move || {
         thread::scope(|scope| {
             let worker = scope.spawn(move || {
-                // Dropped at the end of the work, also by a panic, which ends the wait.
+                // The sender is dropped when the work ends, even by a panic. That ends the wait
+                // below.
                 let _done = done;
                 work(run)
             });
@@ -85,8 +87,8 @@ pub(crate) fn quietly<T: Send, E: StdError + Send + 'static>(
     self::work(py, |_, _| Ok(()), work)
 }
 
-/// A process that was forked has none of the threads that texere works with, and would wait for
-/// them forever.
+/// Refuses a process that was forked from one in which texere has worked. The forked process has
+/// none of texere's threads, and would wait for them forever.
 fn check_process() -> PyResult<()> {
     static FIRST: OnceLock<u32> = OnceLock::new();
     let here = process::id();
@@ -99,7 +101,7 @@ fn check_process() -> PyResult<()> {
     ))
 }
 
-/// The exception of a panic.
+/// The exception that reports a panic.
 fn panicked(panic: &(dyn Any + Send)) -> PyErr {
     let text = panic.downcast_ref::<&str>().copied();
     let text = text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message");

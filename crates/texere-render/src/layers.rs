@@ -13,29 +13,32 @@ use crate::seen::{DEPTH_BYTES, MARKS, PLACE_BYTES};
 use crate::watch::Watch;
 use crate::{Camera, Quality, RenderError, Scene};
 
-/// What a picture shows in each pixel, rows from the top. A pixel counts as its first sample does,
-/// which lies within half a pixel of its middle; [`Scene::seen_at`] takes that sample, too.
+/// What a picture shows in each pixel, row by row from the top. A pixel has the values of its first
+/// sample, which lies within half a pixel of the pixel's middle. [`Scene::seen_at`] takes the same
+/// sample.
 ///
-/// Where no yarn is seen, the yarn is [`Layers::NO_YARN`], the depth infinite, and all else 0.
+/// Where no yarn is seen, the yarn is [`Layers::NO_YARN`]. The depth is infinite there, and all
+/// other values are 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
     /// Width and height, pixels.
     pub size: [u32; 2],
     /// The number of the yarn, counted from 0.
     pub yarn: Vec<u32>,
-    /// The distance along the pixel's line of sight ([`Camera::ray`]) from where that begins, mm.
+    /// The distance along the pixel's line of sight ([`Camera::ray`]), from where the line begins,
+    /// mm.
     pub depth: Vec<f32>,
     /// The place on the yarn's surface, mm.
     pub position: Vec<[f32; 3]>,
-    /// The unit normal, out of the yarn. Where a yarn is cut open it faces the eye.
+    /// The unit normal, out of the yarn. Where a yarn is cut open, the normal faces the eye.
     pub normal: Vec<[f32; 3]>,
     /// The direction of the yarn's fibres along its surface, of length 1, towards the yarn's end.
-    /// Fibres turn with the twist. Where a yarn is cut open it is the normal.
+    /// Fibres turn with the twist. Where a yarn is cut open, the tangent is equal to the normal.
     pub tangent: Vec<[f32; 3]>,
-    /// The place on the yarn: the angle round it, radians, as
-    /// [`Attribute::angle`](texere_core::Attribute) counts it, and the distance along it in rings
-    /// of the scene's mesh, in steps of an eighth. Rings are counted modulo 8,192. Both are 0 on
-    /// single fibres and where a yarn is cut open.
+    /// The place on the yarn: the angle round it and the distance along it. The angle is in
+    /// radians, and counted as in [`Attribute::angle`](texere_core::Attribute). The distance is in
+    /// rings of the scene's mesh, in steps of an eighth of a ring, and begins again at 0 after
+    /// 8,192 rings. Both are 0 on single fibres and where a yarn is cut open.
     pub uv: Vec<[f32; 2]>,
 }
 
@@ -45,11 +48,11 @@ const DIRECTION_BYTES: u64 = 8;
 /// The most bytes that are copied to the host at once: a few rows of the largest picture.
 const COPY_MOST: u64 = 64 << 20;
 
-/// A pixel of all layers.
+/// The values of one pixel in all layers, in the order of the fields of [`Layers`].
 type Pixel = (u32, f32, [f32; 3], [f32; 3], [f32; 3], [f32; 2]);
 
 impl Layers {
-    /// The yarn of a pixel that shows none.
+    /// The number that [`Layers::yarn`] has where no yarn is seen.
     pub const NO_YARN: u32 = u32::MAX;
 
     fn of([width, height]: [u32; 2], pixels: Vec<Pixel>) -> Self {
@@ -100,11 +103,11 @@ impl Scene {
         Ok(Some(Layers::of([width, height], pixels)))
     }
 
-    /// What a view shows in each pixel, without a picture: nothing is lit. Pixels are not
+    /// What a view shows in each pixel. No picture is made, so nothing is lit. Pixels are not
     /// supersampled, and single fibres are left out. `progress` gets the share of the work done, as
     /// in [`Scene::picture_with_progress`].
     ///
-    /// **Errors**: those of [`Scene::picture_with_progress`].
+    /// **Errors**: the errors of [`Scene::picture_with_progress`].
     pub fn view_layers(
         &mut self,
         camera: &Camera,
@@ -161,11 +164,13 @@ impl Scene {
     }
 }
 
-/// A row of the picture's samples in the copy: places, directions and depths, one after the other.
+/// The layout of a row of samples in the copy. A row has three parts: all places, then all
+/// directions, then all depths.
 #[derive(Debug, Clone, Copy)]
 struct Row {
-    /// Samples of a row.
+    /// The number of samples of a row.
     large: u32,
+    /// The number of samples across a pixel of the picture.
     supersampling: u32,
 }
 
@@ -174,12 +179,12 @@ impl Row {
         Self { large: screen.large()[0], supersampling: screen.large()[0] / screen.size()[0] }
     }
 
-    /// Where the part of a number begins. All parts have samples of whole words.
+    /// The byte of a row at which part number `part` begins. A sample of any part has whole words.
     fn start(&self, part: u64) -> u64 {
         u64::from(self.large) * [0, PLACE_BYTES, PLACE_BYTES + DIRECTION_BYTES][part as usize]
     }
 
-    /// The bytes of a row. Copies of samples begin at multiples of 8 bytes.
+    /// The bytes of a row, with padding, because copies of samples begin at multiples of 8 bytes.
     fn bytes(&self) -> u64 {
         (u64::from(self.large) * (PLACE_BYTES + DIRECTION_BYTES + DEPTH_BYTES)).next_multiple_of(8)
     }
@@ -200,7 +205,7 @@ impl Row {
         if depth >= 1.0 {
             return (Layers::NO_YARN, f32::INFINITY, [0.0; 3], [0.0; 3], [0.0; 3], [0.0; 2]);
         }
-        // In pixels of the picture.
+        // The place of the sample, in pixels of the picture.
         let [right, down] =
             [x, y].map(|pixel| (f64::from(self.large_of(pixel)) + 0.5) / f64::from(self.supersampling));
         let [width, height] = camera.size().map(f64::from);
@@ -221,7 +226,7 @@ impl Row {
     }
 }
 
-/// `from_octahedron` of `view.wgsl`.
+/// Unpacks a direction, as `from_octahedron` of `view.wgsl` does.
 fn direction(packed: u32) -> [f32; 3] {
     let flat = Vec2::new((packed & 0xffff) as f32, (packed >> 16) as f32) / 65_535.0 * 2.0 - 1.0;
     let z = 1.0 - flat.x.abs() - flat.y.abs();

@@ -1,4 +1,5 @@
-//! Structs that say their size are taken from programs that were built with another header.
+//! The library accepts structs that say their size from programs that were built with an earlier or
+//! a later header.
 
 use std::collections::BTreeSet;
 use std::ffi::c_void;
@@ -17,20 +18,22 @@ use crate::pictures::picture;
 use crate::reading::read;
 use crate::structures::finish;
 
-/// A call that is given a struct which says its size.
+/// A function of the library that takes a struct which says its size, and a call of it.
 struct Call {
     function: &'static str,
     kind: &'static str,
-    /// Whether the library writes the struct, else it reads it.
+    /// Whether the library writes the struct. If not, it reads the struct.
     writes: bool,
-    /// The struct's bytes, and what they are a multiple of.
+    /// The struct's bytes. How many there are is a multiple of `align`.
     bytes: Vec<u8>,
     align: usize,
     call: Box<dyn Fn(*mut c_void) -> texere_status>,
 }
 
-/// Words of memory behind a struct.
+/// How many words of memory follow the bytes that this library's struct has. The rest of a longer
+/// struct lies there, and the tests see what is written there.
 const BEHIND: usize = 4;
+/// The byte that fills memory before a call, to show which bytes the call has written.
 const FILL: u8 = 0x5a;
 
 impl Call {
@@ -47,8 +50,9 @@ impl Call {
         Self { function, kind, writes, bytes: bytes.to_vec(), align: align_of::<T>(), call }
     }
 
-    /// Calls with a struct that says `size`, with `tail` behind the bytes that this library has:
-    /// how the call ended, and what the memory holds then.
+    /// Calls the function with a struct that says `size`. If the library reads the struct, bytes of
+    /// the value `tail` follow the bytes that this library has. Returns the status, the error
+    /// message, and what the memory holds after the call.
     fn with(&self, size: usize, tail: u8) -> (texere_status, String, Vec<u8>) {
         let own = self.bytes.len();
         let mut words = vec![0_u64; own.div_ceil(8) + BEHIND];
@@ -67,7 +71,8 @@ impl Call {
         }
     }
 
-    /// A longer struct counts as one of this library's where the rest of it is 0.
+    /// Checks that a longer struct is taken like this library's own if the rest of it is 0, and is
+    /// refused if the rest is not 0.
     fn reads_longer(&self) {
         let (name, own) = (self.function, self.bytes.len());
         let (status, words, _) = self.with(own, FILL);
@@ -80,7 +85,8 @@ impl Call {
         }
     }
 
-    /// Nothing is written behind a struct, whatever its size. What the library does not have is 0.
+    /// Checks that nothing is written behind a struct, whatever its size. Members that the library
+    /// does not have become 0.
     fn writes_within(&self) {
         let (name, own) = (self.function, self.bytes.len());
         let (status, words, usual) = self.with(own, 0);
@@ -96,7 +102,7 @@ impl Call {
             }
             assert!(filled(&memory[size..]), "{name}, {size} bytes: what lies behind is as it was");
             assert!(memory[own.min(size)..size].iter().all(|byte| *byte == 0), "{name}, {size} bytes");
-            // What these lend is made anew by each call.
+            // Each call makes anew what these two structs lend, so their values may differ.
             if !["texere_update", "texere_device_mesh"].contains(&self.kind) {
                 let known = own.min(size);
                 assert_eq!(memory[4..known], usual[4..known], "{name}, {size} bytes");
@@ -107,21 +113,22 @@ impl Call {
 
 macro_rules! call {
     ($calls:ident, reads $kind:ident = $value:expr, |$given:ident| $name:ident($($argument:expr),* $(,)?)) => {
-        // SAFETY: the struct is valid, and so is everything else.
+        // SAFETY: the struct and all other arguments are valid.
         $calls.push(Call::new([stringify!($kind), stringify!($name)], false, $value, move |$given: *mut $kind| unsafe {
             $name($($argument),*)
         }))
     };
     ($calls:ident, writes $kind:ident, |$given:ident| $name:ident($($argument:expr),* $(,)?)) => {
-        // SAFETY: as above.
+        // SAFETY: the struct and all other arguments are valid.
         $calls.push(Call::new([stringify!($kind), stringify!($name)], true, sized::<$kind>(), move |$given| unsafe {
             $name($($argument),*)
         }))
     };
 }
 
-/// Calls whose struct the library reads. A design of no threads or stitches is refused, with words
-/// that the struct's size does not change.
+/// Calls whose struct the library reads. The structs of zeros describe designs without threads or
+/// stitches. The library refuses these designs with an error message that does not depend on the
+/// struct's size.
 fn reading(own: &'static Handles, png: &'static str) -> Vec<Call> {
     static POINTS: [texere_point; 2] = [
         texere_point { x: 0.0, y: 0.0, z: 0.0, half_width: 0.1, half_height: 0.1 },
@@ -150,13 +157,14 @@ fn reading(own: &'static Handles, png: &'static str) -> Vec<Call> {
     calls
 }
 
-/// A view of an array, as the library is given it.
+/// A view of an array, in the form that the library takes.
 fn view<T>(array: &mut [T], stride: u64) -> &'static texere_view {
     let (data, size) = (array.as_mut_ptr().cast(), size_of_val(array) as u64);
     Box::leak(Box::new(texere_view { data, size, stride }))
 }
 
-/// A check that has found faults: threads that are as wide as three of their spacings.
+/// A check that has found faults. The threads of its cloth are three times as wide as their
+/// spacing.
 fn faulty() -> *mut texere_check {
     let design = read(&DESIGN.replace("diameter_mm = 0.2", "diameter_mm = 1.5"));
     // SAFETY: all pointers are those of values that live as long as the calls.
@@ -187,8 +195,8 @@ fn writing(own: &'static Handles) -> Vec<Call> {
     calls
 }
 
-/// Calls of sessions, which a device that lends its buffers has. The names of all, and the calls
-/// where there is such a device.
+/// Calls of sessions. Only devices that lend their buffers have sessions. Returns the names of the
+/// structs and functions, and the calls on the devices of this kind that the machine has.
 fn of_sessions(own: &'static Handles) -> (Vec<[&'static str; 2]>, Vec<Call>) {
     let names =
         vec![["texere_native", "texere_session_native"], ["texere_device_mesh", "texere_session_mesh"]];
@@ -206,7 +214,8 @@ fn of_sessions(own: &'static Handles) -> (Vec<[&'static str; 2]>, Vec<Call>) {
     (names, calls)
 }
 
-/// Each function of the header that takes a struct which says its size, behind the struct's name.
+/// Each function of the header that takes a struct which says its size. The struct's name comes
+/// first, then the function's name.
 fn declared() -> BTreeSet<[String; 2]> {
     let header =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("include/texere.h")).unwrap();
@@ -244,7 +253,7 @@ fn structs_may_be_shorter_and_longer_than_those_of_this_library() {
         }
         names.push([call.kind, call.function]);
     }
-    // The header's list, so that none is forgotten.
+    // The header names all of these functions. The test compares with it so that none is forgotten.
     let declared = declared();
     let names: BTreeSet<_> = names.into_iter().map(|pair| pair.map(str::to_owned)).collect();
     assert_eq!(names, declared);

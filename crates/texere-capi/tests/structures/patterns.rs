@@ -1,5 +1,5 @@
-//! Patterns from arrays, and the same patterns from files: shaft drafts, Jacquard pictures of weft
-//! knits, Jacquard bars of warp knits.
+//! Patterns from arrays give the same designs as patterns from files. The patterns are shaft
+//! drafts, Jacquard pictures of weft knits, and Jacquard bars of warp knits.
 
 use std::ptr::{null, null_mut};
 
@@ -22,12 +22,12 @@ fn lists(own: &[&[u32]]) -> texere_lists {
     texere_lists { numbers: own.concat().leak().as_ptr(), offsets: offsets.leak().as_ptr() }
 }
 
-/// A list of one number each.
+/// Lists of one number each.
 fn one_each(own: impl Iterator<Item = u32>) -> texere_lists {
     texere_lists { numbers: own.collect::<Vec<_>>().leak().as_ptr(), offsets: null() }
 }
 
-/// The twill of the tests on four shafts and four treadles, straight draft.
+/// A draft of the tests' twill: four shafts with a straight threading, and four treadles.
 fn twill() -> texere_draft {
     texere_draft {
         shafts: 4,
@@ -40,7 +40,7 @@ fn twill() -> texere_draft {
     }
 }
 
-/// The design of the cloth of the tests with a draft in place of its drawdown.
+/// The design of the tests' woven cloth, made from a draft in place of the drawdown.
 fn drafted(draft: &texere_draft) -> *mut texere_design {
     let mut design = null_mut();
     let made = with_draft(draft, &mut design);
@@ -56,7 +56,7 @@ fn with_draft(draft: &texere_draft, design: &mut *mut texere_design) -> texere_s
     )
 }
 
-/// The draft in the WIF file that a design is written to.
+/// Writes a design to a WIF file, and reads the file. Returns the draft in the file and the design.
 fn written_draft(design: *const texere_design) -> (Draft, Design) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.wif");
@@ -75,7 +75,7 @@ fn wif(draft: &str) -> Draft {
     read.unwrap().structure.woven().unwrap().draft().unwrap().clone()
 }
 
-/// The lines of a section of WIF.
+/// A section of a WIF file, with one numbered line for each value.
 fn lines(section: &str, values: impl Iterator<Item = String>) -> String {
     let lines: String =
         (1..).zip(values).map(|(number, value): (u32, _)| format!("{number}={value}\n")).collect();
@@ -95,7 +95,8 @@ fn cloth_by_a_shaft_draft_is_that_of_its_drawdown() {
     assert_eq!((written.threading, written.rising_shed), (by_file.threading, true));
 }
 
-/// Ends on two shafts and on none, a sinking shed, a treadle that is never pressed.
+/// The draft has ends on two shafts, ends on no shaft, a sinking shed, a treadle that is tied to no
+/// shaft, and a pick that presses no treadle.
 #[test]
 fn every_part_of_a_draft_is_that_of_a_wif_file() {
     let threading: [&[u32]; 11] = [&[1], &[2, 3], &[], &[3], &[1], &[2], &[3, 1], &[1], &[0], &[2], &[3]];
@@ -165,10 +166,11 @@ fn what_is_wrong_with_a_draft_is_named_by_list_number_value_and_limit() {
     refused(with_woven(change, woven), words);
 }
 
-/// A picture of two colours, six columns wide and three rows high, from the bottom.
+/// A picture of two colours, six columns wide and three rows high. The bottom row comes first.
 const PICTURE: [u32; 18] = [0, 0, 1, 1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 1, 1, 1, 1, 1];
 
-/// A design whose text names `picture.png`, a picture of [`PICTURE`] in black (0) and white.
+/// Reads a design whose text names the file `picture.png`. The file shows [`PICTURE`], with black
+/// for 0 and white for 1.
 fn read_beside_picture(text: &str) -> Design {
     let rows = PICTURE.chunks(6).rev().flatten();
     let pixels: Vec<u8> = rows.flat_map(|color| [*color as u8 * 255; 3]).collect();
@@ -209,15 +211,19 @@ fn jacquards_of_weft_knits_are_those_of_their_pictures() {
     }
 }
 
-/// The Jacquard of the tests, for a chain of two laps: as it is, and both laps moved by a needle.
+/// A Jacquard for a chain of two laps. `colors` are the cells of its image, and `shifts` has four
+/// numbers for each colour.
 fn image(colors: &[u8], shifts: &[u8]) -> texere_jacquard {
     let color_count = shifts.len() as u64 / 4;
     texere_jacquard { guides: 6, rounds: 3, colors: colors.as_ptr(), color_count, shifts: shifts.as_ptr() }
 }
 
+/// The shifts of two colours. Colour 0 leaves both laps as they are. Colour 1 moves the first lap
+/// by one needle and leaves the second.
 const SHIFTS: [u8; 8] = [0, 0, 0, 0, 1, 1, 0, 0];
 
-/// Calls with a warp knit of two bars, the front one of which has `jacquard`.
+/// Calls `call` with a warp knit of two guide bars. The front bar has `jacquard`, the other bar has
+/// no Jacquard.
 fn with_jacquard<T>(jacquard: texere_jacquard, call: impl FnOnce(&texere_warp_knit) -> T) -> T {
     let none = texere_jacquard { guides: 0, rounds: 9, colors: null(), color_count: 9, shifts: null() };
     let jacquards = [jacquard, none];
@@ -272,7 +278,7 @@ fn what_is_wrong_with_a_jacquard_is_named_by_array_number_value_and_limit() {
     let bars = |change: fn(&mut texere_jacquard), shifts: [u8; 8], words: &str| {
         let mut own = image(&colors, &shifts);
         change(&mut own);
-        // SAFETY: as above.
+        // SAFETY: the arrays live as long as the call.
         let made = with_jacquard(own, |knit| unsafe { texere_design_warp_knit(knit, &mut null_mut()) });
         refused(made, &format!("knit.jacquards[0]{words}"));
     };
@@ -283,14 +289,15 @@ fn what_is_wrong_with_a_jacquard_is_named_by_array_number_value_and_limit() {
     bars(|own| own.color_count = 1, SHIFTS, ".colors[2] is 1, but there are 1, counted from 0");
     bars(|own| own.shifts = null(), SHIFTS, ".shifts is null");
     bars(|_| (), [0, 0, 0, 0, 0, 2, 0, 0], ".shifts[5] is 2, expected 0 or 1");
-    // The lap goes round two needles, and its beginning is moved away from its end.
+    // A colour moves the beginning of a lap away from the lap's end. The lap, which goes round two
+    // needles, then goes round three.
     let wide = with_jacquard(image(&colors, &[0, 0, 0, 0, 1, 0, 0, 0]), |knit| {
         // SAFETY: the struct has two bars.
         let mut bars = unsafe { std::slice::from_raw_parts(knit.bars, 2) }.to_vec();
         let laps = [texere_lap { from: 2, to: 0 }, texere_lap { from: 1, to: 2 }];
         bars[0].laps = laps.as_ptr();
         let knit = texere_warp_knit { bars: bars.as_ptr(), ..*knit };
-        // SAFETY: as above.
+        // SAFETY: the arrays live as long as the call.
         unsafe { texere_design_warp_knit(&knit, &mut null_mut()) }
     });
     let words = "a colour of guide bar 1's Jacquard makes its lap 3-0 at course 1: 3 needles; a lap goes round 2 at most";

@@ -1,4 +1,4 @@
-//! Chords along an interval, and the places where those of two intervals come near.
+//! Chords along an interval, and the places where the chords of two intervals come near each other.
 
 use glam::{DVec2, DVec3};
 
@@ -9,9 +9,9 @@ use super::interval::{Cubic, closest};
 /// from there converges.
 pub(super) const SAGITTA: f64 = 0.1;
 
-/// How far an interval may lie from its fine chords, in radii of its yarn. The ratio at the fine
-/// chords then differs by less than [`CLEARANCE_ACCURACY`](crate::CLEARANCE_ACCURACY) from the
-/// ratio at the curves.
+/// How far an interval may lie from its fine chords, in radii of its yarn. The clearance ratio at
+/// the fine chords then differs by less than [`CLEARANCE_ACCURACY`](crate::CLEARANCE_ACCURACY) from
+/// the ratio at the curves.
 pub(super) const SAGITTA_FINE: f64 = 0.0005;
 
 /// Chords of usual size. An interval has 12 at most.
@@ -20,8 +20,9 @@ pub(super) type Usual = Chords<14>;
 /// Fine chords. An interval has 64 at most.
 pub(super) type Fine = Chords<66>;
 
-/// The corners of chords along an interval. `ROW` is two more than the most chords, the length of a
-/// row of pairs: one entry for each chord, and one more on each side.
+/// The corners of chords along an interval. `ROW` is the length of a row in the table of pairs of
+/// chords. A row has one entry for each chord and an empty one at each end, so an interval has
+/// `ROW` - 2 chords at most.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chords<const ROW: usize> {
     corners: [DVec3; ROW],
@@ -37,7 +38,7 @@ impl<const ROW: usize> Chords<ROW> {
         let sagitta = sagitta * width.min(height).max(f64::MIN_POSITIVE);
         let mut count = 1;
         while count < most {
-            // n chords lie about 1/n² as far from a curve as one does.
+            // n chords lie about 1/n² as far from a curve as one chord does.
             let times = (cubic.off_chords_squared(count).sqrt() / sagitta).sqrt();
             if times <= 1.0 {
                 break;
@@ -73,8 +74,9 @@ impl<const ROW: usize> Chords<ROW> {
             let one = self.chord(row);
             for column in 0..columns {
                 let two = other.chord(column);
-                // Twice the distance of the middles, and twice how far both chords could reach from
-                // there.
+                // `apart` is the square of twice the distance of the chords' middles. If the
+                // middles are more than half of `reach` apart, the chords can't come nearer than
+                // `within`.
                 let apart = (one[0] + one[1] - two[0] - two[1]).length_squared();
                 let reach = 2.0 * within + self.lengths[row] + other.lengths[column];
                 if apart <= reach * reach {
@@ -87,7 +89,7 @@ impl<const ROW: usize> Chords<ROW> {
             for column in 0..columns {
                 let own = (row + 1) * ROW + column + 1;
                 let here = near[own];
-                // If two pairs are equally near, the first counts.
+                // If two pairs are equally near, only the first of them counts.
                 let before = [own - ROW - 1, own - ROW, own - ROW + 1, own - 1];
                 let after = [own + 1, own + ROW - 1, own + ROW, own + ROW + 1];
                 let least_of = |before: &[usize], after: &[usize]| {

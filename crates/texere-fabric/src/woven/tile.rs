@@ -3,25 +3,25 @@
 use super::{Drawdown, Woven};
 use crate::FabricError;
 
-/// Number of threads beyond the longest float that lie round a repeat. A thread's bend depends on
-/// the crossings at both ends of its float, and on the next ones. With 1 a tile of plain weave is
-/// off by .05 mm at its edges, with 2 by nothing (`tiles_go_on_at_their_edges`); this is twice
-/// that.
+/// How many threads more than the longest float are copied on each side of a repeat. A thread's
+/// bend depends on the crossings at both ends of its float, and on the next crossings. With 1, a
+/// tile of plain weave is off by .05 mm at its edges. With 2, it is exact
+/// (`tiles_go_on_at_their_edges`). The number here is twice as large.
 const BEYOND: usize = 4;
 
 impl Woven {
-    /// One repeat of the cloth with copies of its threads on all sides, and the numbers of threads
-    /// before the repeat and in it: ends first, then picks. After a repeat threads lie, cross and
-    /// look as before. A cloth in which nothing repeats is its own repeat. The weft does not turn
-    /// at selvedges.
+    /// One repeat of the cloth with copies of its threads on all sides. Threads of the next repeat
+    /// lie, cross and look like those of this one. A cloth in which nothing repeats is its own
+    /// repeat. The weft of the result does not turn at selvedges. The two pairs of numbers are the
+    /// threads before the repeat, and the threads in it, ends first and picks second.
     ///
-    /// **Errors**: the errors of [`Woven::new`]; the cloth may have too many threads with its
-    /// copies.
+    /// **Errors**: the errors of [`Woven::new`]; with its copies, the cloth may have too many
+    /// threads.
     pub(crate) fn amid_copies(&self) -> Result<(Self, [[usize; 2]; 2]), FabricError> {
         let repeat = self.repeat_by_look();
         let counts = [self.warp().len(), self.weft().len()];
         let before = self.longest_floats(repeat).map(|float| float + BEYOND);
-        // A repeat of two threads may be that of a cloth of one thread.
+        // A repeat has two threads at least, even if the cloth has only one thread.
         let place = |set: usize, thread: usize| {
             (thread + repeat[set] - before[set] % repeat[set]) % repeat[set] % counts[set]
         };
@@ -35,9 +35,9 @@ impl Woven {
         Ok((amid, [before, repeat]))
     }
 
-    /// The most ends that a pick passes on one side in a row, and the most picks that an end does,
-    /// in cloth that goes on after `repeat`. A thread that never changes sides counts as far as one
-    /// repeat.
+    /// The longest floats of cloth that repeats after `repeat` ends and picks: the most ends in a
+    /// row that a pick passes on one side, and the most picks in a row that an end passes on one
+    /// side. A thread that never changes sides counts with the length of one repeat.
     fn longest_floats(&self, repeat: [usize; 2]) -> [usize; 2] {
         let counts = [self.warp().len(), self.weft().len()];
         let up = |end: usize, pick: usize| self.drawdown().up(end % counts[0], pick % counts[1]);

@@ -13,24 +13,24 @@ use super::polylines::polylines;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
 use crate::yarns_file::BYTES_MAX;
 
-/// Reads a file of curves. Each curve becomes a round yarn of the diameter in `scale`, a spline of
-/// tension 0 through the curve's points. A unit of 1 mm keeps coordinates to the bit.
+/// Reads a file of curves. Each curve becomes a round yarn with the diameter of `scale`. The yarn
+/// is a spline of tension 0 through the curve's points. If a unit is 1 mm, coordinates are kept to
+/// the bit.
 ///
-/// A file that ends in `.obj` is read as Wavefront OBJ: its polylines (statements `l`) are the
+/// A file that ends in `.obj` is read as Wavefront OBJ. Its polylines (statements `l`) are the
 /// curves, and all else in it, such as faces, is passed over. A polyline that begins where the one
-/// before it ended belongs to the same yarn, and a yarn that ends at its first vertex is closed.
-/// The axis z is up.
+/// before it ended belongs to the same yarn. A yarn that ends at its first vertex is closed. The
+/// axis z is taken to be up.
 ///
 /// Any other file is read as BCC, Binary Curve Collection. If the file says that x or y is up, the
 /// curves are turned so that this axis becomes z.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a BCC file that is cut short, goes
-/// on behind its last curve, has counts that do not fit one another, or is of another kind;
-/// [`ReadError::Word`], with line and column, for a number or a vertex that OBJ does not allow, and
-/// [`ReadError::MissingKey`] for an OBJ file without polylines;
-/// [`ReadError::Yarns`] for coordinates or a diameter that no yarn may have;
-/// [`ReadError::TooLarge`] beyond 16 GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`],
-/// [`ReadError::Io`].
+/// on after its last curve, has counts that do not fit one another, or is of another kind;
+/// [`ReadError::Word`], which names line and column, for a number or a vertex that OBJ does not
+/// allow; [`ReadError::MissingKey`] for an OBJ file without polylines; [`ReadError::Yarns`] for
+/// coordinates or a diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16
+/// GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -51,8 +51,8 @@ pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadEr
     curves_from(path, &bytes_of(&open, path, BYTES_MAX)?, scale)
 }
 
-/// Reads the bytes of a file of curves that a program has in memory. Errors call the file `name`,
-/// and its ending says which kind of file it is.
+/// Reads the bytes of a file of curves that a program has in memory. Errors call the file `name`.
+/// The ending of `name` says which kind of file it is.
 ///
 /// **Errors**: the errors of [`curves`].
 ///
@@ -163,7 +163,7 @@ fn count(bytes: &mut Bytes<'_>, left: usize) -> Result<(usize, bool), ReadError>
 fn point(bytes: &mut Bytes<'_>, up: u8, scale: CurveScale) -> Result<ControlPoint, ReadError> {
     let mut axis = || Ok::<_, ReadError>(bytes.float("a coordinate of a control point")? * scale.unit_mm);
     let [x, y, z] = [axis()?, axis()?, axis()?];
-    // Quarter turns, which mirror no curve.
+    // These are turns by 90 degrees, so no curve is mirrored.
     let [x, y, z] = match up {
         0 => [-z, y, x],
         1 => [x, -z, y],

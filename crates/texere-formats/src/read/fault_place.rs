@@ -81,7 +81,7 @@ fn own_place<'a>(error: &'a (dyn Error + 'static)) -> Option<FaultPlace<'a>> {
         | ReadError::Yarns { file, .. }
         | ReadError::Boundary { file, .. }
         | ReadError::Fabric { file, .. } => at(file, 0, 0),
-        // The text of an operation's place has its file and line.
+        // The place of an operation is a text, which has the file and the line in it.
         ReadError::Operation { .. } | ReadError::OutOfMemory(_) => None,
     }
 }

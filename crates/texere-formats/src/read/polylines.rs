@@ -14,7 +14,7 @@ use super::ReadError;
 use super::curve_scale::CurveScale;
 use super::error::shown;
 
-/// Reads the polylines of an OBJ file. Each becomes a round yarn.
+/// Reads the polylines of an OBJ file. Each yarn is round.
 pub(super) fn polylines(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
     let mut words = Words { bytes, at: 0, line: 1, line_at: 0 };
     let mut lines = Polylines { offsets: vec![0], ..Polylines::default() };
@@ -37,13 +37,13 @@ struct Polylines {
     vertices: Vec<[f32; 3]>,
     /// The vertices of all yarns, counted from 0.
     corners: Vec<u32>,
-    /// The place of each yarn's first vertex in `corners`, and at the end the number of them all.
+    /// The place of each yarn's first vertex in `corners`, and at the end the length of `corners`.
     offsets: Vec<u64>,
     yarns: Vec<Yarn>,
 }
 
 impl Polylines {
-    /// The rest of a statement `v x y z`. Weights and colours may follow.
+    /// The rest of a statement `v x y z`. Weights and colours may follow, and are passed over.
     fn vertex(&mut self, file: &Path, words: &mut Words<'_>) -> Result<(), ReadError> {
         let mut axes = [0.0; 3];
         for axis in &mut axes {
@@ -56,9 +56,9 @@ impl Polylines {
         Ok(())
     }
 
-    /// The rest of a statement `l 1 2 3`. A polyline that begins where the one before it ended goes
-    /// on with the same yarn: some programs write an edge at a time. A yarn that comes back to its
-    /// first vertex is closed.
+    /// The rest of a statement `l 1 2 3`. A polyline that begins where the one before it ended
+    /// continues the same yarn, because some programs write an edge at a time. A yarn that comes
+    /// back to its first vertex is closed.
     fn polyline(&mut self, file: &Path, words: &mut Words<'_>) -> Result<(), ReadError> {
         let mut count = 0;
         while let Some(word) = words.next() {
@@ -135,9 +135,11 @@ impl Polylines {
 #[derive(Debug, Clone, Copy)]
 struct Word<'a> {
     text: &'a [u8],
-    /// Its first byte, the number of its line, and the line's first byte.
+    /// The place of its first byte in the file.
     at: usize,
+    /// The number of its line, counted from 1.
     line: usize,
+    /// The place of the line's first byte in the file.
     line_at: usize,
 }
 
@@ -152,9 +154,11 @@ impl Word<'_> {
 #[derive(Debug)]
 struct Words<'a> {
     bytes: &'a [u8],
-    /// The next byte, the number of its line, and the line's first byte.
+    /// The place of the next byte in the file.
     at: usize,
+    /// The number of its line, counted from 1.
     line: usize,
+    /// The place of the line's first byte in the file.
     line_at: usize,
 }
 
@@ -204,15 +208,15 @@ impl<'a> Words<'a> {
     fn refused(&self, file: &Path, word: Option<Word<'_>>, expected: &str) -> ReadError {
         let end = Word { text: &[], at: self.at, line: self.line, line_at: self.line_at };
         let Word { text, at, line, line_at } = word.unwrap_or(end);
-        // Columns are counted in letters.
+        // Columns count characters, not bytes.
         let column = String::from_utf8_lossy(&self.bytes[line_at..at]).chars().count() + 1;
         let value = shown(&String::from_utf8_lossy(text));
         ReadError::Word { file: file.into(), line, column, value, expected: expected.into() }
     }
 }
 
-/// The number of bytes of a backslash that ends a line, with the end of the line, if `bytes` begin
-/// with one.
+/// The number of bytes of a backslash and the end of the line after it, if `bytes` begin with
+/// these.
 fn joint(bytes: &[u8]) -> Option<usize> {
     match bytes {
         [b'\\', b'\n', ..] => Some(2),

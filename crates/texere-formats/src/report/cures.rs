@@ -20,7 +20,7 @@ pub(crate) struct CureReport {
     value: String,
     /// The effect of the new value.
     effect: String,
-    /// The least clearance with the change, at the places that were the worst.
+    /// The least clearance with the change, at the places that were the worst without it.
     #[serde(serialize_with = "as_near_as_looked")]
     clearance: f64,
     /// The tightest bend with the change, at the same places.
@@ -30,8 +30,8 @@ pub(crate) struct CureReport {
 }
 
 impl CureReport {
-    /// None for a cure beyond the limits of a design file, such as the spacing for yarns far too
-    /// thick.
+    /// None for a cure beyond the limits of a design file, such as the spacing that yarns far too
+    /// thick would need.
     pub(crate) fn new(cure: &Cure) -> Option<Self> {
         let (key, value, effect) = change(&cure.remedy)?;
         Some(Self {
@@ -46,8 +46,8 @@ impl CureReport {
 }
 
 impl CureReport {
-    /// The report of the cure for a mesh that is wrung or inside out: more rings. Its `key` is an
-    /// option of the commands that draw, not a key of a design file.
+    /// The report of the cure for a mesh that is wrung or inside out. The cure is more rings. Its
+    /// `key` is an option of the commands that draw, not a key of a design file.
     pub(crate) fn finer(subdivisions: u32, diagnosis: &Diagnosis) -> Self {
         let drawn = [ClothFault::Wrung, ClothFault::InsideOut];
         let mut leaves = diagnosis.faults.kinds();
@@ -63,7 +63,7 @@ impl CureReport {
     }
 }
 
-/// Whether a remedy gives threads more room, so that it helps cloth at rest as well.
+/// Whether a remedy gives threads more room. Such a remedy helps cloth at rest as well.
 pub(crate) const fn gives_room(remedy: &Remedy) -> bool {
     matches!(remedy, Remedy::Spacing { .. } | Remedy::Diameter { .. })
 }

@@ -17,7 +17,7 @@ pub(crate) fn setts(cloth: &Woven) -> Sets<SettReport> {
     cloth.setts().map(SettReport::from).into()
 }
 
-/// [`Sett`] with its share of the greatest sett. The keys of the JSON are these fields.
+/// [`Sett`] with its share of the greatest sett. In JSON, the names of these fields are the keys.
 #[derive(Debug, Serialize)]
 pub(crate) struct SettReport {
     per_cm: f64,
@@ -40,7 +40,7 @@ impl From<Sett> for SettReport {
 }
 
 impl Sets<SettReport> {
-    /// Lines of text: a label and a sentence each.
+    /// Lines of text, each with a label and a sentence.
     pub(crate) fn lines(&self) -> [(&'static str, String); 2] {
         [("sett", format!("ends {}", self.warp)), ("", format!("picks {}", self.weft))]
     }

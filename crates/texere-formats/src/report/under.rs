@@ -8,7 +8,7 @@ use texere_core::{YarnPlace, Yarns};
 
 use crate::{Design, NamedPlace};
 
-/// A yarn under the point. The keys of the JSON are these fields.
+/// A yarn under the point. In JSON, the names of these fields are the keys.
 #[derive(Debug, Serialize)]
 pub(crate) struct YarnUnder {
     /// The yarn's name in a designer's words: `course 3`, `end 12`, `guide bar 1, guide 5`.

@@ -1,4 +1,4 @@
-//! The file that a format has beside the mesh file: the materials of OBJ.
+//! The file that some formats have beside the mesh file: for OBJ, the file of materials.
 
 use texere_core::Material;
 
@@ -11,8 +11,8 @@ use super::{Format, Output, WriteError};
 pub(super) struct Beside(Option<Target<Unfinished>>);
 
 impl Beside {
-    /// Writes the file that belongs to a mesh file of `format` at `output`. It does not have its
-    /// name yet.
+    /// Writes the file that belongs to a mesh file of `format` at `output`. The file keeps a
+    /// temporary name until [`commit`](Self::commit).
     ///
     /// **Errors**: [`WriteError::Spared`], [`WriteError::Io`].
     pub(super) fn of(format: Format, output: &Output, materials: &[Material]) -> Result<Self, WriteError> {
@@ -35,8 +35,7 @@ impl Beside {
     /// **Errors**: [`WriteError::Io`], [`WriteError::Spared`].
     pub(super) fn commit(self, mut mesh: Target<Unfinished>) -> Result<u64, WriteError> {
         if let Some(beside) = self.0 {
-            // Whatever may still go wrong with the mesh goes wrong before the other file has its
-            // name.
+            // If the mesh file still fails, it fails here, before the other file gets its name.
             mesh.settle()?;
             beside.commit()?;
         }

@@ -17,14 +17,14 @@ use super::format::by_extension;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CurveFormat {
-    /// Binary Curve Collection: control points alone. It has no thickness, no colour and no
+    /// Binary Curve Collection: control points alone. The format has no thickness, no colour and no
     /// tension.
     Bcc,
     /// The text form of Universal Scene Description: curves with diameters and colours.
     Usda,
     /// USD's text form with straight lines between control points, for simulators that read no
-    /// other curves, and with their thickness and mass. No extension stands for it alone:
-    /// [`Output::linear`](super::Output::linear) asks for it.
+    /// other curves. The lines have a thickness and a mass. No extension stands for this format
+    /// alone: [`Output::linear`](super::Output::linear) asks for it.
     LinearUsda,
 }
 

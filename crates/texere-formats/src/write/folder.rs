@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use super::WriteError;
 use super::unfinished::UnfinishedFolder;
 
-/// Makes a folder at `path`. `fill` writes its files into an unfinished folder, which then takes
-/// its place. If `fill` fails, or the program ends first, there is no folder at `path`.
+/// Makes a folder at `path`. `fill` gets the path of an unfinished folder, and writes the files
+/// into it. The unfinished folder then takes the name `path`. If `fill` fails, or the program ends
+/// first, there is no folder at `path`.
 ///
-/// **Errors**: the error of `fill`, and [`WriteError::Io`] if there is something at `path` already
-/// that is not an empty folder, or if the file system refuses.
+/// **Errors**: the error of `fill`; [`WriteError::Io`] if there is something at `path` already that
+/// is not an empty folder, or if the file system refuses.
 ///
 /// ```
 /// # let parent = tempfile::tempdir()?;
@@ -46,7 +47,7 @@ pub fn folder<E: From<WriteError>>(
 }
 
 /// Makes sure that there is nothing at `path`, or an empty folder. The check is meant for a program
-/// that has much to do before it writes. [`folder`](fn@folder) makes it itself.
+/// that has much to do before it writes. [`folder`](fn@folder) makes the check itself.
 ///
 /// **Errors**: [`WriteError::Io`] if there is something else at `path`.
 pub fn vacant(path: impl AsRef<Path>) -> Result<(), WriteError> {
@@ -65,7 +66,7 @@ fn free(path: &Path) -> io::Result<()> {
     }
 }
 
-/// All files in a folder and in its folders.
+/// All files in a folder and in the folders within it.
 fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let (mut found, mut folders) = (Vec::new(), vec![folder.to_owned()]);
     while let Some(folder) = folders.pop() {

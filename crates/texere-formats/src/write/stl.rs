@@ -1,8 +1,8 @@
 //! Binary STL: one list of facets, each with its normal and its corners.
 //!
 //! Source: 3D Systems, "Stereolithography Interface Specification", 1989. Programs that print or
-//! mesh solids read it. It has no shared vertices: two facets that meet have corners at equal
-//! places, to the bit.
+//! mesh solids read STL files. The format has no shared vertices. Where two facets meet, their
+//! corners have coordinates that are equal to the bit.
 
 use std::io::{Seek, Write};
 
@@ -21,26 +21,29 @@ const HEADER_BYTES: usize = 80;
 /// Bytes of a facet: a normal, three corners and two bytes that nothing uses.
 const FACET_BYTES: u64 = 50;
 
-/// The most facets, which a `u32` counts.
+/// The most facets of a file, which counts them with a `u32`.
 const FACETS_MAX: u64 = u32::MAX as u64;
 
 /// An STL file that is being written.
 ///
-/// Facets are made as rings come, from a ring and the one before it. Only two rings are kept. The
-/// file has all facets of tubes before those of caps, so that it grows in two places.
+/// Once a ring has come, the facets between it and the ring before it are written. Only two rings
+/// are kept. The file has all facets of tubes before those of caps, so it grows in two places.
 #[derive(Debug)]
 pub(super) struct StlWriter<'a, W: Write + Seek> {
     target: Target<W>,
     plan: &'a Plan,
-    /// The quads between a ring and the next.
+    /// The corners of the facets between a ring and the next, as numbers of the two rings'
+    /// vertices.
     quads: Vec<u32>,
     /// The ring before the one that is coming.
     before: Vec<Vec3>,
-    /// What has come of a ring, or of a cap.
+    /// The vertices that have come of the current ring or cap.
     ring: Vec<Vec3>,
     /// Whether the next chunk begins with a ring that the chunk before repeats.
     goes_on: bool,
+    /// The byte at which the next facet of a tube begins.
     next_tube_facet_at: u64,
+    /// The byte at which the next facet of a cap begins.
     next_cap_facet_at: u64,
 }
 
@@ -73,8 +76,8 @@ impl<'a, W: Write + Seek> StlWriter<'a, W> {
         })
     }
 
-    /// Writes the facets of a chunk's ring or cap, which is complete. Rings come before caps in the
-    /// numbers of a chunk.
+    /// Writes the facets of the ring or cap whose vertices have all come. `number` is its number in
+    /// the chunk, which counts rings before caps.
     fn complete(&mut self, chunk: &Chunk, number: u32) -> Result<(), WriteError> {
         let sides = self.plan.settings().sides;
         let ring = std::mem::take(&mut self.ring);
@@ -107,7 +110,7 @@ impl<'a, W: Write + Seek> StlWriter<'a, W> {
 
     fn facet(&mut self, corners: [Vec3; 3]) -> Result<(), WriteError> {
         let [one, two, three] = corners;
-        // A facet without area has no normal.
+        // A facet without area gets (0, 0, 0) for its normal.
         let normal = (two - one).cross(three - one).normalize_or_zero();
         let mut bytes = [0; FACET_BYTES as usize];
         let floats = [normal, one, two, three].map(|point| point.to_array());

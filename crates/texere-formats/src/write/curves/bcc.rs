@@ -14,7 +14,7 @@ use crate::bcc_file::{HEADER_BYTES, INFO, INFO_BYTES, SIGN, Spline, Z_UP};
 /// The format's name in errors.
 const FORMAT: &str = "BCC";
 
-/// The most control points of a curve. Their number is an `i32`, negative for closed curves.
+/// The most control points of a curve. Their number is an `i32`, and is negative for closed curves.
 const POINTS_MAX: usize = i32::MAX as usize;
 
 /// Checks that the format can hold the yarns.

@@ -15,12 +15,12 @@ use super::{Output, WriteError};
 /// Writes the centrelines of yarns as curves, in the format that the extension of `output` stands
 /// for. Coordinates are in mm. Returns the file's length in bytes.
 ///
-/// Both formats hold the control points of the spline to the bit. `docs/FORMATS.md` says what else
-/// each of them holds. Sections, up directions, twist and sources are left out.
+/// BCC and USD both hold the control points of the spline to the bit. `docs/FORMATS.md` says what
+/// else each format holds. Sections, up directions, twist and sources are left out.
 ///
-/// **Errors**: [`WriteError::UnknownFormat`]; [`WriteError::NotEnding`] for linear curves that are
-/// no `.usda` file; [`WriteError::Unheld`] for BCC of yarns whose tension
-/// is not 0, or of a yarn of more than 2³¹ - 1 control points; [`WriteError::Spared`],
+/// **Errors**: [`WriteError::UnknownFormat`]; [`WriteError::NotEnding`] for linear curves in a file
+/// that does not end in `.usda`; [`WriteError::Unheld`] for a BCC file of yarns whose tension is
+/// not 0, or of a yarn of more than 2³¹ - 1 control points; [`WriteError::Spared`],
 /// [`WriteError::Io`].
 ///
 /// ```

@@ -1,13 +1,14 @@
-//! The text form of Universal Scene Description: the yarns of each material as one prim of curves.
+//! The text form of Universal Scene Description. The yarns of each material are one prim of curves.
 //!
-//! A spline of tension 0 is written as Catmull-Rom curves. The wrap is `nonperiodic`. The points
-//! beyond the ends of a curve, which shape its first and its last interval, are written out. With
-//! the wrap `pinned` a renderer would make up these points, and usdview and Blender draw such
-//! curves wrong. A closed yarn is written as a curve that ends where it begins. A spline of any
-//! other tension is written as Bézier curves of the same shape. For programs that read straight
-//! lines alone, any spline can be written as the lines between its control points. Such programs
-//! are simulators. The curves therefore have the attributes of deformable bodies: they collide, and
-//! have a thickness at each point and, if the yarns have a tex, a mass.
+//! A spline of tension 0 is written as Catmull-Rom curves. The points beyond the ends of such a
+//! curve, which shape its first and its last interval, are written out, and the wrap is
+//! `nonperiodic`. With the wrap `pinned` a renderer would make up these points, but usdview and
+//! Blender draw such curves wrong. A spline of any other tension is written as Bézier curves of the
+//! same shape. A closed yarn is written as a curve that ends where it begins.
+//!
+//! For simulators that read straight lines alone, any spline can be written as the lines between
+//! its control points. These linear curves have the attributes of deformable bodies: they collide,
+//! and they have a thickness at each point and, if the yarns have a tex, a mass.
 //!
 //! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org. Alliance for OpenUSD, "Deformable Body
 //! Physics" (a proposal).
@@ -129,7 +130,7 @@ impl<'a> Curve<'a> {
         std::iter::once(first).chain(others).flatten().flatten()
     }
 
-    /// The mass of the lines between the curve's points, kg. A tex is a gram in a kilometre.
+    /// The mass of the lines between the curve's points, kg. One tex is one gram per kilometre.
     fn mass(self, tex: f32) -> f64 {
         let places = || self.vertices().map(|place| place.map(f64::from));
         let line = |(from, to): ([f64; 3], [f64; 3])| {
@@ -139,8 +140,9 @@ impl<'a> Curve<'a> {
         f64::from(tex) * 1e-9 * length
     }
 
-    /// The diameter at each control point, mm: that of a circle as large as the ellipse of the
-    /// yarn's width and height. A closed curve has its first diameter again at its end.
+    /// The diameter at each control point, mm. It is the diameter of a circle with the area of the
+    /// ellipse that is as wide and as high as the yarn. A closed curve has its first diameter again
+    /// at its end.
     fn diameters(self) -> impl Iterator<Item = f32> + 'a {
         let again = self.points.first().filter(|_| self.closed);
         self.points.iter().chain(again).map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
@@ -197,7 +199,7 @@ impl<W: Write> Stage<W> {
         let (kind, basis) = match own.basis {
             Basis::CatmullRom => ("cubic", "catmullRom"),
             Basis::Bezier => ("cubic", "bezier"),
-            // Readers of linear curves pass over the basis. This one is the schema's default.
+            // Readers of linear curves pass over the basis. `bezier` is the default of the schema.
             Basis::Linear => ("linear", "bezier"),
         };
         let schemas = match own.basis {

@@ -26,9 +26,10 @@ const PATTERN: usize = 0;
 /// The number of the buffer view that holds all vertices.
 const VERTICES: usize = 1;
 
+/// Bytes of an index.
 const INDEX_BYTES: u64 = size_of::<u32>() as u64;
 
-/// The extension that allows positions of 16-bit and normals of 8-bit numbers.
+/// The extension that allows positions in 16-bit numbers and normals in 8-bit numbers.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// A millimetre in metres, glTF's unit.
@@ -41,17 +42,17 @@ const ROUGHNESS: f32 = 0.9;
 /// The document of a GLB file. The bounds of its positions are filled in while vertices are
 /// written.
 ///
-/// A tube is one primitive from its yarn's first ring to its last, and a cap is one primitive. Each
-/// primitive has accessors of its own for positions and for normals. Tubes with equally many rings
-/// share one accessor of indices. Caps share one if they close the same end of yarns with the same
-/// section.
+/// Each tube is one primitive, from its yarn's first ring to its last. Each cap is one primitive,
+/// too. Each primitive has accessors of its own for positions and for normals. Tubes with equally
+/// many rings share one accessor of indices. Caps share one if they close the same end of yarns
+/// with the same section.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
-    /// The shapes in the order of their vertices. Accessor 2 i has the positions of shape i.
+    /// The shapes in the order of their vertices. Accessor 2 i has the positions of shape i, and
+    /// accessor 2 i + 1 its normals.
     shapes: Vec<Shape>,
-    /// Number of gaps between rings of the longest tube. The index pattern covers all of these
-    /// gaps.
+    /// The number of gaps between rings of the longest tube. The index pattern covers as many gaps.
     gaps: u64,
 }
 
@@ -113,8 +114,8 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
 }
 
 impl Document {
-    /// Describes the mesh of `plan`, cut into `chunks`. With `grids`, one for each yarn, vertices
-    /// are packed.
+    /// Describes the mesh of `plan`, cut into `chunks`. If there are `grids`, one for each yarn,
+    /// vertices are packed.
     pub(super) fn new(
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
@@ -235,8 +236,9 @@ fn name(number: usize, origin: Origin) -> String {
     }
 }
 
-/// A node for each mesh, under a node that turns millimetres into metres. Each mesh has the number
-/// of its yarn. With `grids`, its node turns steps into millimetres.
+/// A node for each mesh, under a node that turns millimetres into metres. `meshes` come with the
+/// numbers of their yarns. With `grids`, the node of a mesh also turns steps of its yarn's grid
+/// into millimetres.
 fn nodes(meshes: &[(schema::Mesh, usize)], grids: Option<&[Grid]>) -> Vec<Node> {
     let root = Node {
         name: "fabric".into(),
@@ -273,12 +275,13 @@ fn surface(material: &Material) -> schema::Material {
 /// How vertices are stored.
 #[derive(Debug, Clone, Copy)]
 struct VertexForm {
-    /// Bytes of a vertex, and of what comes before its normal.
+    /// Bytes of a vertex.
     bytes: u64,
+    /// Bytes of a vertex before its normal.
     normal_at: u64,
     /// The kinds of numbers of positions and of normals.
     kinds: [u32; 2],
-    /// Whether whole numbers of a normal stand for shares of 1.
+    /// Whether the whole numbers of normals stand for shares of 1. None if normals are floats.
     normalized: Option<bool>,
 }
 
@@ -344,6 +347,6 @@ fn buffer_views(pattern_bytes: u64, vertices: u64, vertex_bytes: u64) -> [Buffer
         byte_stride: Some(vertex_bytes),
         target: ARRAY_BUFFER,
     };
-    // In the order of PATTERN and VERTICES.
+    // The order is that of the numbers `PATTERN` and `VERTICES`.
     [pattern, vertices]
 }

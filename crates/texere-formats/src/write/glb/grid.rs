@@ -7,32 +7,34 @@ use texere_core::Vertex;
 use crate::write::WriteError;
 use crate::write::bounds::Bounds;
 
-/// Steps of a grid from its middle to either end: those of a signed 16-bit number.
+/// The number of steps from a grid's middle to either end: the largest signed 16-bit number.
 const STEPS: f32 = 32767.0;
 
-/// Steps of a packed normal from 0 to 1: those of a signed 8-bit number. In 40 million random
-/// directions the direction was off by 0.39 degrees at most, and the length by 0.006735. Khronos'
-/// validator complains above 0.00674.
+/// The number of steps of a packed normal from 0 to 1: the largest signed 8-bit number. In 40
+/// million random directions, packed normals were off by 0.39 degrees at most, and their lengths by
+/// 0.006735 at most. Khronos' validator complains about lengths that are off by more than 0.00674.
 const NORMAL_STEPS: f32 = 127.0;
 
-/// The longest yarn that is packed, mm. Its steps are 0.01 mm, 1/20 of a yarn of 0.2 mm. Longer
-/// steps would spoil the rings of such a yarn.
+/// The longest yarn that is packed, by the longest side of its box, mm. Its grid has steps of 0.01
+/// mm, which is 1/20 of the diameter of a yarn of 0.2 mm. Longer steps would spoil the rings of
+/// such a yarn.
 const LENGTH_MOST_MM: f32 = 655.0;
 
 /// The shortest step, mm, for yarns that are hardly more than a point.
 const STEP_LEAST_MM: f32 = 1e-9;
 
-/// The grid of a yarn's packed positions. Positions count its steps from its middle.
+/// The grid of a yarn's packed positions. Positions are numbers of the grid's steps from its
+/// middle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grid {
     /// The middle of the yarn's box, mm.
     pub(super) middle: [f32; 3],
-    /// A step along each axis, mm.
+    /// The length of a step along any axis, mm.
     pub(super) step: f32,
 }
 
-/// The bytes of a packed vertex: three coordinates of 16 bits, padding, a normal of three 8-bit
-/// numbers, padding.
+/// The bytes of a packed vertex: three 16-bit coordinates and padding, then a normal of three 8-bit
+/// numbers and padding.
 pub(super) type PackedBytes = [u8; 12];
 
 impl Grid {
@@ -41,7 +43,7 @@ impl Grid {
     /// **Errors**: [`WriteError::TooLongToPack`].
     pub(super) fn all(bounds: &Bounds) -> Result<Vec<Self>, WriteError> {
         let grid = |(yarn, [low, high]): (usize, &[[f32; 3]; 2])| {
-            // Half of each first, because the sum may be too large for a float.
+            // Each is halved before they are added, because their sum may be too large for a float.
             let middle = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
             let reach = |axis: usize| (high[axis] - middle[axis]).max(middle[axis] - low[axis]);
             let reach = reach(0).max(reach(1)).max(reach(2));

@@ -74,7 +74,7 @@ impl Json for bool {
 
 impl Json for f32 {
     /// Every float takes fifteen bytes, which hold a sign, nine digits, a point, and an exponent of
-    /// four bytes. Spaces fill up a shorter number in front, which JSON allows.
+    /// four bytes. A shorter number gets spaces in front, which JSON allows.
     fn write(&self, text: &mut String) {
         // Writing to a string does not fail.
         let _ = write!(text, "{self:15e}");

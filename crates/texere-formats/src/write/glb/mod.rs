@@ -21,7 +21,7 @@ use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 use super::places::Places;
 use super::target::Target;
 
-/// The largest file, whose length the header holds in a `u32`.
+/// The largest file, bytes. The header holds a file's length in a `u32`.
 const BYTES_MAX: u64 = u32::MAX as u64;
 
 /// Bytes of the header: magic, version and length of the file.
@@ -30,14 +30,15 @@ const HEADER_BYTES: u64 = 12;
 /// Bytes of a chunk's header: length and type of the chunk.
 const CHUNK_HEADER_BYTES: u64 = 8;
 
-/// Vertices that are packed at a time: their copies take 150 kB.
+/// The number of vertices that are packed at a time. Their copies take 150 kB.
 const BATCH: usize = 4096;
 
 /// A GLB file that is being written.
 ///
-/// The document comes first in the file, but states the bounds of every tube and cap, which are
-/// known last. It is therefore written twice: at first to reserve its place, and at the end with
-/// the bounds. Its length does not depend on the bounds.
+/// The document comes first in the file, but states the bounds of every tube and cap. These are
+/// known only when all vertices have come. The document is therefore written twice: at first to
+/// reserve its place, and at the end with the bounds. The document's length does not depend on the
+/// bounds.
 #[derive(Debug)]
 pub(super) struct GlbWriter<W: Write + Seek> {
     target: Target<W>,
@@ -50,7 +51,7 @@ pub(super) struct GlbWriter<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> GlbWriter<W> {
-    /// Starts a file. With `bounds`, the boxes of all yarns, vertices are packed.
+    /// Starts a file. If there are `bounds`, the boxes of all yarns, vertices are packed.
     pub(super) fn start(
         mut target: Target<W>,
         plan: &Plan,

@@ -2,12 +2,18 @@
 
 use super::json::{Json, objects};
 
-/// Numbers that glTF borrows from OpenGL.
+/// The numbers below are OpenGL's, which glTF uses for kinds of numbers and kinds of buffers. This
+/// is the kind of signed 8-bit numbers.
 pub(super) const BYTE: u32 = 5120;
+/// Signed 16-bit numbers.
 pub(super) const SHORT: u32 = 5122;
+/// Unsigned 32-bit numbers.
 pub(super) const UNSIGNED_INT: u32 = 5125;
+/// 32-bit floats.
 pub(super) const FLOAT: u32 = 5126;
+/// A buffer of vertices.
 pub(super) const ARRAY_BUFFER: u32 = 34962;
+/// A buffer of indices.
 pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 objects! {

@@ -1,5 +1,5 @@
-//! OBJ: vertices with normals and texture coordinates, and triangles, as text. A file of materials
-//! (MTL) lies beside it.
+//! OBJ: a text with vertices, their normals and texture coordinates, and triangles. A file of
+//! materials (MTL) lies beside it.
 //!
 //! Source: Wavefront, "Advanced Visualizer Manual", appendix B1, 1995.
 
@@ -22,42 +22,50 @@ use super::target::Target;
 use materials::material_name;
 pub(super) use materials::{LIBRARY, library, library_name};
 
-/// Bytes of a line of three numbers, and of one of two: a keyword of two letters, and for each
-/// number a space and the fifteen bytes that any float takes (a sign, nine digits, a point, an
-/// exponent of four bytes).
+/// Bytes of a line of three numbers: a keyword of two letters, a space and fifteen bytes for each
+/// number, and the line's end. Fifteen bytes hold any float: a sign, nine digits, a point, and an
+/// exponent of four bytes.
 const THREE_BYTES: u64 = 51;
+/// Bytes of a line of two numbers.
 const TWO_BYTES: u64 = 35;
 
-/// The most vertices and the most texture coordinates. The format has no limit, but readers number
-/// them with 32 bits and a sign.
+/// The most vertices, and the most texture coordinates. The format has no limit, but readers number
+/// both with 32 bits and a sign.
 const NUMBERS_MAX: u64 = i32::MAX as u64;
 
 /// An OBJ file that is being written.
 ///
-/// OBJ numbers vertices by their order, and the mesh comes chunk by chunk. All lines of a kind have
-/// one length, so that each has its place whatever comes first, and the file grows in several
-/// places. The file has positions, normals and texture coordinates of rings before those of caps,
-/// and the triangles of tubes before those of caps.
+/// OBJ numbers vertices by their order in the file, but the mesh comes chunk by chunk. All lines of
+/// a kind therefore have the same length. The place of each line is then known whatever comes
+/// first, and the file grows in several places. Positions, normals and texture coordinates of rings
+/// stand before those of caps, and triangles of tubes before those of caps.
 ///
-/// The first texture coordinate is the share of a turn round the yarn, the second one the distance
-/// along it, mm. A ring has one more of them than it has sides, because it begins at 0 and ends at
-/// 1. Caps show the circle that touches the texture's edges.
+/// The first texture coordinate is the angle round the yarn as a share of a turn. The second is the
+/// distance along the yarn, mm. A ring has one more pair of coordinates than it has sides, because
+/// the turn begins at 0 and ends at 1. A cap takes the circle that touches the texture's edges.
 #[derive(Debug)]
 pub(super) struct ObjWriter<'a, W: Write + Seek> {
     target: Target<W>,
     plan: &'a Plan,
     materials: &'a [Material],
+    /// The corners of the triangles between a ring and the next, as numbers of the two rings'
+    /// vertices.
     quads: Vec<u32>,
-    /// Bytes of a number of a vertex.
+    /// The digits of the largest number of a vertex or of texture coordinates.
     digits: usize,
-    /// Texture coordinates of all rings.
+    /// The number of texture coordinates of all rings.
     ring_coordinates: u64,
+    /// The byte at which positions begin.
     positions_at: u64,
+    /// The byte at which normals begin.
     normals_at: u64,
+    /// The byte at which texture coordinates begin.
     coordinates_at: u64,
+    /// The byte at which the next triangle of a tube begins.
     next_tube_face_at: u64,
+    /// The byte at which the next triangle of a cap begins.
     next_cap_face_at: u64,
-    /// The yarns of the last face of a tube, and of the last one of a cap.
+    /// The yarn of the last face of a tube, and the yarn of the last face of a cap.
     named: [Option<u32>; 2],
     along: Along,
 }
@@ -122,7 +130,8 @@ impl<'a, W: Write + Seek> ObjWriter<'a, W> {
 
     /// Bytes of the line of a triangle.
     fn face_bytes(&self) -> u64 {
-        // `f`, and for each corner a space, three numbers and two slashes, and the line's end.
+        // The line has an `f`, for each corner a space, three numbers and two slashes, and the
+        // line's end.
         2 + 3 * (3 + 3 * self.digits as u64)
     }
 
@@ -147,7 +156,8 @@ impl<'a, W: Write + Seek> ObjWriter<'a, W> {
         format!("g {origin}_{yarn}\nusemtl {material}\n")
     }
 
-    /// Writes the name of a yarn, unless the last face of this kind was of it.
+    /// Writes the name of a yarn, unless the last face of this kind belonged to the same yarn.
+    /// `kind` is 0 for faces of tubes, and 1 for those of caps.
     fn named(&mut self, kind: usize, yarn: u32) -> Result<(), WriteError> {
         if self.named[kind].replace(yarn) == Some(yarn) {
             return Ok(());
@@ -156,11 +166,11 @@ impl<'a, W: Write + Seek> ObjWriter<'a, W> {
         self.target.write(name.as_bytes())
     }
 
-    /// Writes a triangle: for each corner the number of its vertex, and of its texture coordinates,
-    /// counted from 0.
+    /// Writes a triangle. Each corner has the number of its vertex and the number of its texture
+    /// coordinates, both counted from 0.
     fn face(&mut self, corners: [[u64; 2]; 3]) -> Result<(), WriteError> {
         let [one, two, three] = corners.map(|[vertex, at]| format!("{0}/{1}/{0}", vertex + 1, at + 1));
-        // Spaces at the end fill up the line.
+        // Spaces at the end give all these lines the same length.
         let width = self.face_bytes() as usize - 1;
         let line = format!("{:width$}\n", format!("f {one} {two} {three}"));
         self.target.write(line.as_bytes())
@@ -198,7 +208,7 @@ impl Along {
         self.count += 1;
     }
 
-    /// The distance of the ring whose vertices have been added. `begins` is whether the ring is the
+    /// The distance of the ring whose vertices have been added. `begins` says that the ring is the
     /// first of its run of rings.
     fn next(&mut self, sides: f64, begins: bool) -> f64 {
         let middle = self.sum / sides;
@@ -278,9 +288,9 @@ impl<W: Write + Seek> MeshWriter<W> for ObjWriter<'_, W> {
     }
 }
 
-/// Vertices and texture coordinates of a triangle between two rings, the first of which begins with
-/// vertex `base`. The triangles between the last side and the first one take the texture's far
-/// edge.
+/// Vertices and texture coordinates of a triangle between two rings. Vertex `base` is the first of
+/// the first ring. Where the triangles of the last side come back to the ring's first vertex, they
+/// take the coordinates of the texture's far edge.
 fn tube_corners(base: u64, corners: [u32; 3], sides: u64) -> [[u64; 2]; 3] {
     let side = |corner: u32| u64::from(corner) % sides;
     let closes = corners.iter().any(|&corner| side(corner) == sides - 1)
@@ -292,7 +302,7 @@ fn tube_corners(base: u64, corners: [u32; 3], sides: u64) -> [[u64; 2]; 3] {
     })
 }
 
-/// A line of texture coordinates.
+/// The line of a pair of texture coordinates.
 fn two(turn: f32, along: f32) -> String {
     format!("vt {turn:15e} {along:15e}\n")
 }

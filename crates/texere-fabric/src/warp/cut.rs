@@ -60,7 +60,7 @@ impl WarpKnitted {
         let last = self.lapped_size()[1] - 1;
         for yarn in 0..yarns.layout().yarns().len() {
             let origin = yarns.layout().yarns()[yarn].origin;
-            let mut points = yarns.yarn_points(yarn).unwrap_or(&[]).to_vec();
+            let points = yarns.yarn_points(yarn).unwrap_or(&[]);
             // All rounds are alike: the lower end has a copy in the last round, and the upper end
             // has one in the first.
             let copies =
@@ -76,6 +76,7 @@ impl WarpKnitted {
             if moves == [None, None] {
                 continue;
             }
+            let mut points = points.to_vec();
             for (end, aside) in [0, points.len() - 1].into_iter().zip(moves) {
                 let [x, y, z] = (points[end].position() - aside.unwrap_or_default()).to_array();
                 (points[end].x, points[end].y, points[end].z) = (x, y, z);

@@ -32,17 +32,22 @@ impl Bounds {
     pub(super) fn include(&mut self, chunk: &Chunk, first: u32, vertices: &[Vertex]) {
         for (yarn, run) in yarn_runs(chunk, self.sides, first, vertices.len()) {
             let [low, high] = &mut self.yarns[yarn as usize];
-            for vertex in &vertices[run] {
-                for (axis, &value) in vertex.position.iter().enumerate() {
-                    low[axis] = low[axis].min(value);
-                    high[axis] = high[axis].max(value);
-                }
-            }
+            widen([low, high], &vertices[run]);
         }
     }
 
     /// The least and the greatest coordinates of each yarn.
     pub(super) fn yarns(&self) -> &[[[f32; 3]; 2]] {
         &self.yarns
+    }
+}
+
+/// Widens a box, given by its least and its greatest coordinates, so that `vertices` lie in it.
+pub(super) fn widen([low, high]: [&mut [f32; 3]; 2], vertices: &[Vertex]) {
+    for vertex in vertices {
+        for (axis, &value) in vertex.position.iter().enumerate() {
+            low[axis] = low[axis].min(value);
+            high[axis] = high[axis].max(value);
+        }
     }
 }

@@ -17,6 +17,7 @@ use super::schema::{
     Gltf, MetallicRoughness, Node, Primitive, SHORT, Scene, UNSIGNED_INT,
 };
 use crate::write::WriteError;
+use crate::write::bounds::widen;
 use crate::write::places::Places;
 use crate::write::target::Target;
 
@@ -207,12 +208,7 @@ impl Document {
             let own = (shape.vertices.start.max(first) - first) as usize
                 ..(shape.vertices.end.min(end) - first) as usize;
             if let Accessor { min: Some(min), max: Some(max), .. } = &mut self.gltf.accessors[2 * number] {
-                for vertex in &vertices[own] {
-                    for (axis, &value) in vertex.position.iter().enumerate() {
-                        min[axis] = min[axis].min(value);
-                        max[axis] = max[axis].max(value);
-                    }
-                }
+                widen([min, max], &vertices[own]);
             }
         }
     }

@@ -44,16 +44,16 @@ impl Handle for texere_plan {
     const NAME: &str = "plan";
 }
 
-/// Bytes of a chunk's largest buffer, for each core: with six sides some 350,000 vertices. A slow
-/// core makes them in 20 ms, and two chunks may be on their way when a run is cancelled.
-const CORE_BYTES: u64 = 8 << 20;
+/// Bytes of a chunk's largest buffer, for each core: with six sides some 700,000 vertices. A core
+/// makes them in 2 to 7 ms, and two chunks may be on their way when a run is cancelled.
+const CORE_BYTES: u64 = 16 << 20;
 
 /// The fewest and the most bytes of a chunk's largest buffer. At the end of each chunk cores wait
 /// for the last one, the longer the more cores there are. On two cores a mesh in chunks of 8 MiB
-/// took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB 1 %. On sixteen
-/// cores it took 10 % longer in chunks of 16 MiB. No test breaks with other values: `c-overhead`
-/// and `c-cancel` of texere-bench show them.
-const CHUNK_BYTES: [u64; 2] = [16 << 20, 64 << 20];
+/// took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB 2 %, in chunks
+/// of 32 MiB no longer. On sixteen cores it took 10 % longer in chunks of 16 MiB. No test breaks
+/// with other values: `c-overhead` and `c-cancel` of texere-bench show them.
+const CHUNK_BYTES: [u64; 2] = [32 << 20, 64 << 20];
 
 /// The limits that chunks of plans are cut to.
 pub(crate) static LIMITS: LazyLock<Limits> = LazyLock::new(|| {

@@ -57,7 +57,7 @@ fn a_weave_a_knit_and_a_warp_knit_have_the_meshes_of_rust() {
         assert!(std::fs::read(&output).unwrap() == std::fs::read(&own).unwrap(), "{design}: {said}");
         // The same chunks as the library's, because a ring at which chunks meet counts twice.
         let cores = std::thread::available_parallelism().unwrap().get() as u64;
-        let limits = Limits { binding_bytes: (cores << 23).clamp(16 << 20, 64 << 20), ..Limits::NONE };
+        let limits = Limits { binding_bytes: (cores << 24).clamp(32 << 20, 64 << 20), ..Limits::NONE };
         let mesh = Pipeline::new(cloth.yarns()).limits(limits).mesh(&*device).unwrap();
         let (vertices, triangles) = (mesh.vertices.len(), mesh.triangles().count());
         let (report, draws) = (cloth.report(), mesh.draws().count());

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use texere::{Design, Yarns};
 
-use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_yarns};
+use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_stage, is_yarns};
 use crate::fail::Fail;
 use crate::terminal::line;
 
@@ -38,11 +38,11 @@ pub(crate) fn yarns(
     if let Some(option) = section.or(settling.asked()) {
         return Err(Fail::needs_design(option, path));
     }
-    let yarns = if is_curves {
-        texere::read::curves(path, curves.scale().ok_or_else(|| Fail::needs_diameter(path))?)?
-    } else {
-        texere::read::yarns(path)?.yarns
-    };
+    let scale = curves.scale();
+    if is_curves && !is_stage(path) && scale.diameter_mm.is_none() {
+        return Err(Fail::needs_diameter(path));
+    }
+    let yarns = if is_curves { texere::read::curves(path, scale)? } else { texere::read::yarns(path)?.yarns };
     Ok(Some(match settings.tension {
         Some(tension) => yarns.with_tension(tension)?,
         None => yarns,

@@ -10,7 +10,7 @@ use texere_formats::read::{CurveScale, curves_from};
 use texere_formats::write::{self, CurveFormat};
 use texere_formats::{ReadError, WriteError};
 
-const SCALE: CurveScale = CurveScale { unit_mm: 1.0, diameter_mm: 0.25 };
+const SCALE: CurveScale = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.25) };
 
 /// An open yarn, a closed one, and one of another material whose thickness changes.
 fn yarns() -> Yarns {
@@ -67,7 +67,7 @@ fn curves_of_bcc_are_read_again_to_the_bit() {
 #[test]
 fn units_and_the_axis_that_is_up_are_taken_into_account() {
     let mut bytes = written(&yarns(), CurveFormat::Bcc);
-    let scale = CurveScale { unit_mm: 10.0, diameter_mm: 2.0 };
+    let scale = CurveScale { unit_mm: Some(10.0), diameter_mm: Some(2.0) };
     let first = |bytes: &[u8]| {
         let point = curves_from("up.bcc", bytes, scale).unwrap().points()[1];
         [point.x, point.y, point.z]
@@ -118,9 +118,9 @@ fn values_that_bcc_does_not_allow_are_refused_with_their_place() {
     endless[68..72].copy_from_slice(&f32::INFINITY.to_le_bytes());
     for (bytes, scale) in [
         (&endless, SCALE),
-        (&bytes, CurveScale { unit_mm: f32::NAN, ..SCALE }),
-        (&bytes, CurveScale { diameter_mm: -1.0, ..SCALE }),
-        (&bytes, CurveScale { diameter_mm: 0.0, ..SCALE }),
+        (&bytes, CurveScale { unit_mm: Some(f32::NAN), ..SCALE }),
+        (&bytes, CurveScale { diameter_mm: Some(-1.0), ..SCALE }),
+        (&bytes, CurveScale { diameter_mm: Some(0.0), ..SCALE }),
     ] {
         let error = curves_from("bad.bcc", bytes, scale).unwrap_err();
         assert!(matches!(error, ReadError::Yarns { .. }), "{scale:?}: {error}");

@@ -6,7 +6,7 @@ use texere_core::{Settings, Yarns};
 use texere_formats::ReadError;
 use texere_formats::read::{self, CurveScale, curves_from};
 
-const SCALE: CurveScale = CurveScale { unit_mm: 1.0, diameter_mm: 0.25 };
+const SCALE: CurveScale = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.25) };
 
 fn read(text: &str) -> Yarns {
     curves_from("lines.obj", text.as_bytes(), SCALE).unwrap()
@@ -58,7 +58,7 @@ fn coordinates_are_those_of_the_text_times_the_unit() {
     for (point, place) in found.points().iter().zip(places) {
         assert_eq!([point.x, point.y, point.z].map(f32::to_bits), place.map(f32::to_bits));
     }
-    let metres = CurveScale { unit_mm: 1000.0, diameter_mm: 0.25 };
+    let metres = CurveScale { unit_mm: Some(1000.0), diameter_mm: Some(0.25) };
     let found = curves_from("lines.OBJ", text.as_bytes(), metres).unwrap();
     assert_eq!(found.points()[2].z, 7.25e-3 * 1000.0);
 }
@@ -83,7 +83,7 @@ fn what_obj_does_not_allow_is_refused_with_its_place() {
         let error = curves_from("bad.obj", text.as_bytes(), SCALE).unwrap_err();
         assert!(error.to_string().contains(said), "{text:?}: {error}");
     }
-    let wide = CurveScale { diameter_mm: f32::NAN, ..SCALE };
+    let wide = CurveScale { diameter_mm: Some(f32::NAN), ..SCALE };
     let error = curves_from("bad.obj", b"v 0 0 0\nv 1 0 0\nl 1 2\n", wide).unwrap_err();
     assert!(matches!(error, ReadError::Yarns { .. }), "{error}");
 }
@@ -106,7 +106,7 @@ fn a_file_of_lines_is_read_from_its_path() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("lines.obj");
     std::fs::write(&path, "v 0 0 0\nv 0.001 0 0\nv 0.002 0.001 0\nl 1 2 3\n").unwrap();
-    let found = read::curves(&path, CurveScale { unit_mm: 1000.0, diameter_mm: 0.2 }).unwrap();
+    let found = read::curves(&path, CurveScale { unit_mm: Some(1000.0), diameter_mm: Some(0.2) }).unwrap();
     let mut known = Yarns::builder();
     let at = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0]];
     let points = at.map(|[x, y]| texere_core::ControlPoint::new(x, y, 0.0, 0.1));

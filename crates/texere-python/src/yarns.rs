@@ -65,10 +65,11 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::yarns(path))?.yarns))
 }
 
-/// Reads curves that another program wrote, in a BCC file (``.bcc``) or as polylines of an OBJ file
-/// (``.obj``): round yarns of one diameter. The file says neither how thick they are nor what its
-/// unit is: ``diameter_mm`` and ``unit_mm``, the length of the unit, do. A unit of 1 mm keeps
-/// coordinates to the bit.
+/// Reads curves that another program wrote, in a BCC file (``.bcc``), as polylines of an OBJ file
+/// (``.obj``) or in the text form of USD (``.usda``): round yarns. A USD file says its unit and the
+/// widths of its curves. For other files ``diameter_mm`` has to be given, and ``unit_mm``, the
+/// length of the unit, is 1 if left out. If they are given for a USD file, they count instead of
+/// what it says. A unit of 1 mm keeps coordinates to the bit.
 ///
 /// >>> import tempfile, pathlib
 /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.bcc"
@@ -79,8 +80,13 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
 /// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for coordinates
 /// or a diameter out of range.
 #[pyfunction]
-#[pyo3(signature = (path, *, diameter_mm, unit_mm=1.0))]
-pub(crate) fn read_curves(py: Python<'_>, path: PathBuf, diameter_mm: f32, unit_mm: f32) -> PyResult<Yarns> {
+#[pyo3(signature = (path, *, diameter_mm=None, unit_mm=None))]
+pub(crate) fn read_curves(
+    py: Python<'_>,
+    path: PathBuf,
+    diameter_mm: Option<f32>,
+    unit_mm: Option<f32>,
+) -> PyResult<Yarns> {
     let scale = CurveScale { unit_mm, diameter_mm };
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::curves(path, scale))?))
 }

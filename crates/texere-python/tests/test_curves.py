@@ -61,5 +61,6 @@ def test_what_curves_cannot_hold_is_refused(tmp_path):
     with pytest.raises(texere.Error) as raised:
         texere.read_curves(file, diameter_mm=0.2)
     assert raised.value.file == str(file)
-    with pytest.raises(TypeError):
+    texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).write(file)
+    with pytest.raises(texere.Error, match="the diameter of the yarns is missing"):
         texere.read_curves(file)

@@ -52,8 +52,9 @@ def test_curves_come_back_to_the_bit(tmp_path):
     assert (tmp_path / "cloth.bcc").read_bytes() == (tmp_path / "plain.bcc").read_bytes()
     cloth().write(tmp_path / "cloth.usda")
     assert (tmp_path / "cloth.usda").read_text().startswith("#usda 1.0")
-    with pytest.raises(texere.Error):
-        texere.read_curves(tmp_path / "cloth.usda", diameter_mm=0.4)
+    stage = texere.read_curves(tmp_path / "cloth.usda", diameter_mm=0.4)
+    assert numpy.array_equal(stage.points, yarns.points)
+    assert numpy.allclose(stage.halves, 0.2, atol=1e-4)
     with pytest.raises(texere.Error):
         texere.read_curves(tmp_path / "plain.bcc", diameter_mm=-1.0)
 

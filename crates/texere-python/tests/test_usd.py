@@ -3,7 +3,7 @@
 import numpy
 import pytest
 import texere
-from pxr import Usd, UsdGeom
+from pxr import Gf, Usd, UsdGeom
 
 
 def spline_length(points, steps=64):
@@ -99,3 +99,64 @@ def test_curves_are_as_long_as_their_yarns(tmp_path):
     texere.Yarns.from_arrays(numpy.transpose(points), 0.1).write(path)
     [length] = [spline_length(numpy.array(curves.GetPointsAttr().Get())) for curves in curves_of(path)]
     assert abs(length / (turns * numpy.hypot(2.0 * numpy.pi * radius, pitch)) - 1.0) < 1e-4
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_curves_lie_where_pixar_places_them(tmp_path, seed):
+    """Random stages of usd-core: each point of a linear curve lies where usd-core's own matrices take it, in mm and with
+    z up. Its diameter grows by the cube root of the volume's growth."""
+    random = numpy.random.default_rng(seed)
+    path = tmp_path / "cloth.usda"
+    stage = Usd.Stage.CreateNew(str(path))
+    axis = (UsdGeom.Tokens.y, UsdGeom.Tokens.z)[seed % 2]
+    UsdGeom.SetStageUpAxis(stage, axis)
+    metres = random.choice([0.001, 0.01, 1.0])
+    UsdGeom.SetStageMetersPerUnit(stage, metres)
+    expected, widths, place = [], [], ""
+    for level in range(3):
+        place += f"/level_{level}"
+        xform = UsdGeom.Xform.Define(stage, place)
+        pivot = Gf.Vec3d(*random.normal(size=3))
+        xform.AddTranslateOp(opSuffix="pivot").Set(pivot)
+        turns = ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"]
+        getattr(xform, f"AddRotate{turns[random.integers(6)]}Op")().Set(Gf.Vec3f(*random.uniform(-180, 180, 3)))
+        xform.AddScaleOp().Set(Gf.Vec3f(*random.uniform(0.5, 2.0, 3)))
+        xform.AddRotateYOp(opSuffix="more").Set(float(random.uniform(-90, 90)))
+        xform.AddOrientOp().Set(Gf.Quatf(*random.normal(size=4)).GetNormalized())
+        xform.AddTranslateOp(opSuffix="pivot", isInverseOp=True)
+        xform.AddTransformOp().Set(Gf.Matrix4d(Gf.Rotation(Gf.Vec3d(1, 2, 3), 40), Gf.Vec3d(*random.normal(size=3))))
+        if level == 2 and seed % 3 == 0:
+            xform.SetResetXformStack(True)
+        curves = UsdGeom.BasisCurves.Define(stage, place + "/lines")
+        own = random.normal(size=(5, 3)).astype(numpy.float32)
+        curves.CreateTypeAttr(UsdGeom.Tokens.linear)
+        curves.CreateCurveVertexCountsAttr([3, 2])
+        curves.CreatePointsAttr(own)
+        curves.CreateWidthsAttr([0.25])
+        matrix = numpy.array(UsdGeom.Xformable(curves).ComputeLocalToWorldTransform(Usd.TimeCode.Default()))
+        world = numpy.hstack([own, numpy.ones((5, 1))]) @ matrix[:, :3] * metres * 1000.0
+        expected.append(world if axis == UsdGeom.Tokens.z else world @ [[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+        growth = numpy.cbrt(abs(numpy.linalg.det(matrix[:3, :3]))) * metres * 1000.0
+        widths.append(numpy.full(5, 0.25 * growth))
+    stage.GetRootLayer().Save()
+    yarns = texere.read_curves(path)
+    expected = numpy.concatenate(expected)
+    assert numpy.allclose(yarns.points, expected, rtol=1e-5, atol=1e-5 * abs(expected).max())
+    # Diameters are kept in half precision.
+    assert numpy.allclose(2.0 * yarns.halves[:, 0], numpy.concatenate(widths), rtol=1e-3)
+    assert list(yarns.offsets) == [0, 3, 5, 8, 10, 13, 15]
+
+
+@pytest.mark.parametrize("design", ["two-ply", "jersey", "locknit", "tartan"])
+def test_yarns_come_back(tmp_path, design):
+    """Files that texere wrote, and files that usd-core made of them in its own layout."""
+    yarns = texere.read(f"designs/{design}.toml").placed().yarns
+    yarns.write(tmp_path / "own.usda")
+    Usd.Stage.Open(str(tmp_path / "own.usda")).Export(str(tmp_path / "pixar.usda"))
+    for name in ["own.usda", "pixar.usda"]:
+        again = texere.read_curves(tmp_path / name)
+        assert numpy.array_equal(again.points, yarns.points)
+        assert numpy.array_equal(again.offsets, yarns.offsets)
+    Usd.Stage.Open(str(tmp_path / "own.usda")).Export(str(tmp_path / "cloth.usdc"))
+    with pytest.raises(texere.Error, match="the text form"):
+        texere.read_curves(tmp_path / "cloth.usdc")

@@ -59,6 +59,30 @@ pub(crate) const POLYLINES: &[&str] = &[
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nl 1/1 2/1 \\\n 3/1 1/1\n",
 ];
 
+/// USD files with curves of every basis and wrap.
+pub(crate) const STAGES: &[&str] = &[
+    "#usda 1.0\n(\n    metersPerUnit = 0.001\n    upAxis = \"Z\"\n)\ndef Xform \"cloth\" (\n    kind = \"component\"\n)\n{\n\
+     def BasisCurves \"a\" (\n    displayName = \"red \\\"\"\n)\n{\n    uniform token basis = \"catmullRom\"\n    int[] \
+     curveVertexCounts = [4, 6]\n    point3f[] points = [(-1, 0, 0), (0, 0, 0.5), (1, 0.5, 0), (2, 0, 0), (0, 1, 0), (0, 0, 0), \
+     (1, 0, 0), (0, 1, 0), (0, 0, 0), (1, 0, 0)]\n    int[] primvars:yarn = [1, 0] (\n interpolation = \"uniform\"\n)\n    float[] \
+     widths = [0.2, 0.3, 0.1, 0.1, 0.2, 0.1] (\n interpolation = \"varying\"\n )\n    color3f[] primvars:displayColor = [(1, 0, \
+     0.2)]\n    uniform token type = \"cubic\"\n    uniform token wrap = \"nonperiodic\"\n}\n}\n",
+    "#usda 1.0\ndef Xform \"x\"\n{\n    matrix4d xformOp:transform = ( (0, 0.1, 0, 0), (0, 0, 0.1, 0), (0.1, 0, 0, 0), (5, 6, 7, 1) \
+     )\n    uniform token[] xformOpOrder = [\"!resetXformStack!\", \"xformOp:transform\"]\n    def BasisCurves \"b\"\n    {\n        \
+     float3 xformOp:rotateXYZ = (10, 20, 30)\n        double3 xformOp:translate:pivot = (1, 2, 3)\n        float3 xformOp:scale = (1, 1, \
+     -1)\n        quatf xformOp:orient = (1, 0.5, 0, 0)\n        uniform token[] xformOpOrder = [\"xformOp:translate:pivot\", \
+     \"xformOp:rotateXYZ\", \"xformOp:scale\", \"xformOp:orient\", \"!invert!xformOp:translate:pivot\"]\n        int[] \
+     curveVertexCounts = [4]\n        point3f[] points = [(0, 0, 0), (1, 2, 0), (2, -2, 1), (3, 0, 0)]\n        float[] widths = \
+     [0.1]\n    }\n}\n",
+    "#usda 1.0\n(\n    \"two kinds\"\n    customLayerData = {\n        dictionary a = { string b = 'c' }\n    }\n    upAxis = \"X\"\n)\n\
+     class \"gone\" { }\ndef BasisCurves \"s\" (active = true) { uniform token basis = \"bspline\"; uniform token wrap = \
+     \"periodic\"\nint[] curveVertexCounts = [5]\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0.5, 1)]\n\
+     float[] widths = [1, 1, 2, 1, 1] }\n# lines\ndef BasisCurves \"l\" { uniform token type = \"linear\"\nint[] curveVertexCounts = \
+     [2, 3]\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (5, 5, 5), (6, 5, 5), (6, 6.5, 5)]\nfloat[] widths = [0.1, 0.2] (interpolation = \
+     \"uniform\")\ncolor3f[] primvars:displayColor = [(0, 0, 0), (1, 1, 1)] (interpolation = \"uniform\")\ntoken[] a.timeSamples = { 1: \
+     [\"x\"], }\nrel m = </gone> }\n",
+];
+
 /// Design files of knits, some with an image `motif.png` or a program `program.k` beside them.
 pub(crate) const KNITS: &[&str] = &[
     "[knit]\nchart = \"\"\"\nkkRRrrk\n>kpptk<\nkkmkllL\n\"\"\"\nrepeat = [2, 1]\nyarns = [\"2 a\", \"b\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n\

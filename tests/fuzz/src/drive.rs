@@ -44,7 +44,7 @@ pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
         return saved(path);
     }
-    if path.extension().is_some_and(|ending| ending == "bcc" || ending == "obj") {
+    if path.extension().is_some_and(|ending| ending == "bcc" || ending == "obj" || ending == "usda") {
         return curves(path);
     }
     let mut design = match read(path) {
@@ -177,16 +177,21 @@ fn saved(path: &Path) -> Outcome {
 /// Reads curves, writes them again, and makes their mesh and their clearance. Curves that are
 /// written again are the same when they are read again.
 fn curves(path: &Path) -> Outcome {
-    let scale = CurveScale { unit_mm: 1.0, diameter_mm: 0.2 };
-    let yarns = match read::curves(path, scale) {
-        Ok(yarns) => yarns,
+    let given = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.2) };
+    // A USD file says both itself.
+    let says_both = path.extension().is_some_and(|ending| ending == "usda");
+    let yarns = match read::curves(path, if says_both { CurveScale::default() } else { given }) {
+        // BCC holds splines of tension 0 alone.
+        Ok(yarns) => yarns.with_tension(0.0).expect("a tension in range"),
         Err(error) => return Outcome::Refused(chain(&error)),
     };
     let mut again = Vec::new();
     write::curves_to(&yarns, CurveFormat::Bcc, &mut again).expect("a file in memory");
-    let read = read::curves_from("again", &again, scale).expect("a file of the house");
+    let read = read::curves_from("again", &again, given).expect("a file of the house");
+    let places =
+        |yarns: &Yarns| yarns.points().iter().map(|point| [point.x, point.y, point.z]).collect::<Vec<_>>();
     assert!(
-        read.points() == yarns.points() && read.layout().offsets() == yarns.layout().offsets(),
+        places(&read) == places(&yarns) && read.layout().offsets() == yarns.layout().offsets(),
         "curves that are others when they are read again"
     );
     meshed(&yarns)

@@ -46,11 +46,13 @@ pub enum Reader {
     Curves,
     /// OBJ files with polylines.
     Polylines,
+    /// USD files with curves.
+    Stage,
 }
 
 impl Reader {
     /// All readers.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Wif,
         Self::Design,
         Self::Notation,
@@ -62,6 +64,7 @@ impl Reader {
         Self::Yarns,
         Self::Curves,
         Self::Polylines,
+        Self::Stage,
     ];
 
     /// The name of the reader, in lower case.
@@ -79,6 +82,7 @@ impl Reader {
             Self::Yarns => "yarns",
             Self::Curves => "curves",
             Self::Polylines => "polylines",
+            Self::Stage => "stage",
         }
     }
 }
@@ -125,6 +129,7 @@ impl Input {
             Reader::Yarns => vec![("design.yarns", yarn_bytes::mutated(random))],
             Reader::Curves => vec![("design.bcc", yarn_bytes::mutated_curves(random))],
             Reader::Polylines => vec![("design.obj", text::mutated(corpus::POLYLINES, random))],
+            Reader::Stage => vec![("design.usda", text::mutated(corpus::STAGES, random))],
         };
         Self { files }
     }

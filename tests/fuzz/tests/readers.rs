@@ -62,6 +62,11 @@ fn polylines() {
 }
 
 #[test]
+fn stages() {
+    ten_thousand(Reader::Stage);
+}
+
+#[test]
 fn curves() {
     ten_thousand(Reader::Curves);
 }

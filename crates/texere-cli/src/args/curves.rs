@@ -7,18 +7,18 @@ use super::numbers::millimetres;
 /// The scale of curves that another program wrote.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct CurveArgs {
-    /// The diameter of all yarns of a file of curves, mm
+    /// The diameter of all yarns of a file of curves, mm; USD files say widths themselves
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     diameter: Option<f32>,
-    /// The length of the unit of a file of curves, mm: 1000 for metres; 1 if left out
+    /// The length of the unit of a file of curves, mm: 1000 for metres; if left out, what a USD
+    /// file says, and 1 for other files
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     unit: Option<f32>,
 }
 
 impl CurveArgs {
-    /// The scale, unless the diameter is missing.
-    pub(crate) fn scale(self) -> Option<CurveScale> {
-        Some(CurveScale { unit_mm: self.unit.unwrap_or(1.0), diameter_mm: self.diameter? })
+    pub(crate) const fn scale(self) -> CurveScale {
+        CurveScale { unit_mm: self.unit, diameter_mm: self.diameter }
     }
 
     /// The first option given, if there is one.

@@ -18,7 +18,7 @@ pub(crate) use bake::BakeArgs;
 pub(crate) use curves::CurveArgs;
 use numbers::point;
 use path::{file_of, mesh_file};
-pub(crate) use path::{is_curves, is_read_as_curves, is_yarns};
+pub(crate) use path::{is_curves, is_read_as_curves, is_stage, is_yarns};
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::{SettingsArgs, undersampled};
 pub(crate) use settling::SettlingArgs;

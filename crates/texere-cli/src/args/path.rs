@@ -18,8 +18,16 @@ pub(crate) fn is_curves(path: &Path) -> bool {
 
 /// Whether texere reads a path as curves of another program.
 pub(crate) fn is_read_as_curves(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|ending| ["bcc", "obj"].iter().any(|known| ending.eq_ignore_ascii_case(known)))
+    ends_in(path, &["bcc", "obj"]) || is_stage(path)
+}
+
+/// Whether a path names a USD file, whose curves have a thickness of their own.
+pub(crate) fn is_stage(path: &Path) -> bool {
+    ends_in(path, &["usd", "usda", "usdc", "usdz"])
+}
+
+fn ends_in(path: &Path, endings: &[&str]) -> bool {
+    path.extension().is_some_and(|ending| endings.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
 /// The parser of a path whose ending must be that of a mesh, of curves or of saved yarns.

@@ -41,7 +41,7 @@ fn curves_are_those_of_the_cloth_at_rest() {
         assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
     }
     let yarns = texere::read::yarns(&saved).unwrap().yarns;
-    let scale = texere::read::CurveScale { unit_mm: 1.0, diameter_mm: 0.1 };
+    let scale = texere::read::CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.1) };
     let read = texere::read::curves(&curves, scale).unwrap();
     let places = |yarns: &texere::Yarns| yarns.points().iter().map(|p| [p.x, p.y, p.z]).collect::<Vec<_>>();
     assert!(places(&read) == places(&yarns));

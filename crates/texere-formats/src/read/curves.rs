@@ -1,4 +1,4 @@
-//! Reads files of curves (BCC, and OBJ's polylines): yarns that other programs made.
+//! Reads files of curves (BCC, OBJ's polylines, USD): yarns that other programs made.
 
 use std::path::Path;
 
@@ -10,27 +10,37 @@ use super::bytes::Bytes;
 use super::curve_scale::CurveScale;
 use super::file::{bytes_of, open, small};
 use super::polylines::polylines;
+use super::usd::usd;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
 use crate::yarns_file::BYTES_MAX;
 
-/// Reads a file of curves. Each curve becomes a round yarn with the diameter of `scale`. The yarn
-/// is a spline of tension 0 through the curve's points. If a unit is 1 mm, coordinates are kept to
-/// the bit.
+/// Reads a file of curves. Each curve becomes a round yarn, a spline of tension 0 through the
+/// curve's points. If a unit is 1 mm, coordinates are kept to the bit.
 ///
 /// A file that ends in `.obj` is read as Wavefront OBJ. Its polylines (statements `l`) are the
 /// curves, and all else in it, such as faces, is passed over. A polyline that begins where the one
 /// before it ended belongs to the same yarn. A yarn that ends at its first vertex is closed. The
 /// axis z is taken to be up.
 ///
-/// Any other file is read as BCC, Binary Curve Collection. If the file says that x or y is up, the
-/// curves are turned so that this axis becomes z.
+/// A file that ends in `.usda` or `.usd` is read as Universal Scene Description in its text form.
+/// Its prims of the type `BasisCurves` are the curves: linear ones, Catmull-Rom, Bézier and
+/// B-spline curves of any wrap, where translations, rotations and scales place them. A yarn has the
+/// widths of its curve, and the colour of a prim or a curve becomes that of its material. Bézier
+/// and B-spline curves become splines through so many points that these run within a hundredth of
+/// the radius beside them. If all curves are splines of one tension, as those that texere writes,
+/// their own points are kept, and the yarns have that tension. One file is read: stages that refer
+/// to others, or have variants, are refused.
+///
+/// Any other file is read as BCC, Binary Curve Collection. If a BCC or a USD file says that x or y
+/// is up, the curves are turned so that this axis becomes z.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a BCC file that is cut short, goes
 /// on after its last curve, has counts that do not fit one another, or is of another kind;
-/// [`ReadError::Word`], which names line and column, for a number or a vertex that OBJ does not
-/// allow; [`ReadError::MissingKey`] for an OBJ file without polylines; [`ReadError::Yarns`] for
-/// coordinates or a diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16
-/// GiB; [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
+/// [`ReadError::Word`], which names line and column, for a word that OBJ or USD does not allow at
+/// its place; [`ReadError::MissingKey`] for a file without curves, and for a BCC or an OBJ file if
+/// `scale` has no diameter; [`ReadError::Yarns`] for coordinates or a diameter that no yarn may
+/// have; [`ReadError::TooLarge`] for a file beyond 16 GiB; [`ReadError::OutOfMemory`],
+/// [`ReadError::NotAFile`], [`ReadError::Io`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -42,7 +52,7 @@ use crate::yarns_file::BYTES_MAX;
 /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
 /// let yarns = yarns.build()?;
 /// write::curves(&yarns, &path)?;
-/// let again = read::curves(&path, CurveScale { unit_mm: 1.0, diameter_mm: 0.2 })?;
+/// let again = read::curves(&path, CurveScale { diameter_mm: Some(0.2), ..CurveScale::default() })?;
 /// assert_eq!(again.points(), yarns.points());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -58,15 +68,25 @@ pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadEr
 ///
 /// ```
 /// use texere_formats::read::{self, CurveScale};
-/// let error = read::curves_from("hat", b"BCC", CurveScale { unit_mm: 1.0, diameter_mm: 0.2 }).unwrap_err();
-/// assert!(error.to_string().starts_with("hat, byte 0: "));
+/// let hat = b"#usda 1.0\ndef BasisCurves \"rim\" { token type = \"cubic\" }\n";
+/// let error = read::curves_from("hat.usda", hat, CurveScale::default()).unwrap_err();
+/// assert!(error.to_string().starts_with("hat.usda, line 2, column 5: "), "{error}");
 /// ```
 pub fn curves_from(name: impl AsRef<Path>, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
     let file = name.as_ref();
     small(file, bytes.len() as u64, BYTES_MAX)?;
-    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+    let is = |endings: &[&str]| {
+        let ending = file.extension().unwrap_or_default();
+        endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
+    };
+    if is(&["obj"]) {
         return polylines(file, bytes, scale);
     }
+    // The binary form is refused by its sign.
+    if is(&["usd", "usda", "usdc", "usdz"]) {
+        return usd(file, bytes, scale);
+    }
+    let scale = scale.given(file)?;
     let mut bytes = Bytes::new(file, bytes);
     let Header { curves, points: planned, up } = header(&mut bytes)?;
     let mut yarns: Vec<Yarn> = room("yarns", curves)?;
@@ -160,8 +180,8 @@ fn count(bytes: &mut Bytes<'_>, left: usize) -> Result<(usize, bool), ReadError>
     Ok((points, count < 0))
 }
 
-fn point(bytes: &mut Bytes<'_>, up: u8, scale: CurveScale) -> Result<ControlPoint, ReadError> {
-    let mut axis = || Ok::<_, ReadError>(bytes.float("a coordinate of a control point")? * scale.unit_mm);
+fn point(bytes: &mut Bytes<'_>, up: u8, [unit, diameter]: [f32; 2]) -> Result<ControlPoint, ReadError> {
+    let mut axis = || Ok::<_, ReadError>(bytes.float("a coordinate of a control point")? * unit);
     let [x, y, z] = [axis()?, axis()?, axis()?];
     // These are turns by 90 degrees, so no curve is mirrored.
     let [x, y, z] = match up {
@@ -169,5 +189,5 @@ fn point(bytes: &mut Bytes<'_>, up: u8, scale: CurveScale) -> Result<ControlPoin
         1 => [x, -z, y],
         _ => [x, y, z],
     };
-    Ok(ControlPoint::new(x, y, z, scale.diameter_mm / 2.0))
+    Ok(ControlPoint::new(x, y, z, diameter / 2.0))
 }

@@ -25,6 +25,7 @@ mod polylines;
 mod program_place;
 mod refusal;
 mod threads;
+mod usd;
 #[cfg(feature = "wif")]
 mod wif;
 mod yarns;

@@ -119,11 +119,12 @@ impl Polylines {
                 needed_for,
             });
         }
+        let [unit, diameter] = scale.given(file)?;
         let mut points = Vec::new();
         room_for(&mut points, self.corners.len(), "control points")?;
         points.extend(self.corners.iter().map(|&corner| {
-            let [x, y, z] = self.vertices[corner as usize].map(|axis| axis * scale.unit_mm);
-            ControlPoint::new(x, y, z, scale.diameter_mm / 2.0)
+            let [x, y, z] = self.vertices[corner as usize].map(|axis| axis * unit);
+            ControlPoint::new(x, y, z, diameter / 2.0)
         }));
         let unsound = |source| ReadError::Yarns { file: file.into(), source };
         let layout = Layout::new(self.yarns, self.offsets, vec![Section::Circle]).map_err(unsound)?;

@@ -1,0 +1,336 @@
+//! Reads curves of Universal Scene Description, in its text form: yarns that other programs made.
+//!
+//! The file is read in two steps. [`stage`](stage::stage) takes what it says of prims, in any
+//! order. Then the curves of each prim become yarns, where the prims that it is in place it.
+
+mod curve;
+mod place;
+mod stage;
+mod tokens;
+mod values;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::{DMat4, DVec3};
+use texere_core::backend::room_for;
+use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
+
+use curve::{Curve, Form, Wrap, tension};
+use stage::{Curves, Prim, Stage};
+use tokens::{Token, Tokens};
+
+use super::ReadError;
+use super::curve_scale::CurveScale;
+
+/// How a file of the text form begins.
+const SIGN: &str = "#usda ";
+
+/// Types of curves that are not read.
+const OTHERS: [&str; 2] = ["HermiteCurves", "NurbsCurves"];
+
+/// Reads the curves of a stage. Each yarn is round.
+pub(super) fn usd(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
+    let text = bytes.starts_with(SIGN.as_bytes()).then(|| std::str::from_utf8(bytes));
+    let text = text.ok_or_else(|| sign(file, bytes))?.map_err(|error| ReadError::Bytes {
+        file: file.into(),
+        at: error.valid_up_to() as u64,
+        field: "the text",
+        value: bytes[error.valid_up_to()..].iter().take(4).map(|byte| format!("{byte:02x}")).collect(),
+        expected: "UTF-8".into(),
+    })?;
+    let mut tokens = Tokens::new(file, text, SIGN.len());
+    let version = tokens.next()?;
+    if version.text.split('.').next() != Some("1") {
+        return Err(tokens.refused(version, "version 1"));
+    }
+    let stage = stage::stage(&mut tokens)?;
+    let mut cloth = Cloth::default();
+    let mut worlds: Vec<World> = Vec::new();
+    for prim in &stage.prims {
+        let world = World::of(prim, prim.parent.map(|parent| worlds[parent]), &tokens)?;
+        room_for(&mut worlds, 1, "prims")?;
+        worlds.push(world);
+        if !world.is_there {
+            continue;
+        }
+        if OTHERS.contains(&prim.kind.text) {
+            return Err(tokens.refused(prim.kind, "BasisCurves"));
+        }
+        if let Some(curves) = &prim.curves {
+            if world.is_instanced {
+                return Err(tokens.refused(prim.kind, "curves outside a PointInstancer"));
+            }
+            let reader =
+                Reader { tokens: &tokens, prim, curves, mm: millimetres(&stage, world.matrix, scale), scale };
+            reader.take(&mut cloth)?;
+        }
+    }
+    cloth.yarns(file)
+}
+
+/// The refusal of a file that does not begin as the text form does.
+fn sign(file: &Path, bytes: &[u8]) -> ReadError {
+    let sign = &bytes[..bytes.len().min(8)];
+    ReadError::Bytes {
+        file: file.into(),
+        at: 0,
+        field: "the sign",
+        value: sign.escape_ascii().to_string(),
+        expected: "#usda 1.0: the text form, which `usdcat -o cloth.usda` makes of the others".into(),
+    }
+}
+
+/// Where a prim is in the stage.
+#[derive(Debug, Clone, Copy)]
+struct World {
+    matrix: DMat4,
+    /// Whether the prim and all that it is in are there.
+    is_there: bool,
+    /// Whether the prim is in one that copies it.
+    is_instanced: bool,
+}
+
+impl World {
+    fn of(prim: &Prim<'_>, parent: Option<Self>, tokens: &Tokens<'_>) -> Result<Self, ReadError> {
+        let parent = parent.unwrap_or(Self { matrix: DMat4::IDENTITY, is_there: true, is_instanced: false });
+        let matrix = match &prim.place {
+            None => parent.matrix,
+            Some(place) => {
+                let (matrix, inherits) = place.matrix(tokens)?;
+                if inherits { parent.matrix * matrix } else { matrix }
+            }
+        };
+        let is_instanced = parent.is_instanced || prim.kind.text == "PointInstancer";
+        Ok(Self { matrix, is_there: parent.is_there && prim.is_there, is_instanced })
+    }
+}
+
+/// From a prim's coordinates to mm, with z up. None if the coordinates are that already, which
+/// keeps their bits.
+fn millimetres(stage: &Stage<'_>, world: DMat4, scale: CurveScale) -> Option<DMat4> {
+    let unit = scale.unit_mm.map_or(stage.unit_m * 1000.0, f64::from);
+    // These are turns by 90 degrees, so no curve is mirrored.
+    let turn = match stage.up {
+        "X" => DMat4::from_cols_array_2d(&[
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]),
+        "Y" => DMat4::from_rotation_x(std::f64::consts::FRAC_PI_2),
+        _ => DMat4::IDENTITY,
+    };
+    let matrix = DMat4::from_scale(DVec3::splat(unit)) * turn * world;
+    (matrix != DMat4::IDENTITY).then_some(matrix)
+}
+
+/// The yarns of a stage.
+#[derive(Debug, Default)]
+struct Cloth {
+    curves: Vec<Curve>,
+    /// The material of each curve.
+    materials: Vec<u32>,
+    /// The number of each curve's yarn.
+    numbers: Vec<u32>,
+    palette: Vec<Material>,
+}
+
+impl Cloth {
+    fn yarns(self, file: &Path) -> Result<Yarns, ReadError> {
+        if self.curves.is_empty() {
+            let needed_for = "each yarn is a curve";
+            return Err(ReadError::MissingKey {
+                file: file.into(),
+                field: "a prim of the type BasisCurves".into(),
+                needed_for,
+            });
+        }
+        let tension = tension(&self.curves);
+        let order = order(&self.numbers, self.curves.len())?;
+        let (mut yarns, mut offsets, mut points) = (Vec::new(), vec![0], Vec::<ControlPoint>::new());
+        room_for(&mut yarns, self.curves.len(), "yarns")?;
+        room_for(&mut offsets, self.curves.len(), "yarns")?;
+        for number in order {
+            let (curve, material) = (&self.curves[number], self.materials[number]);
+            let places = if tension.is_some() { curve.ends() } else { curve.places() };
+            room_for(&mut points, places.len(), "control points")?;
+            points.extend(places.iter().map(|place| {
+                let [x, y, z, radius] = place.map(|value| value as f32);
+                ControlPoint::new(x, y, z, radius)
+            }));
+            yarns.push(Yarn { closed: curve.is_closed, material, ..Yarn::default() });
+            offsets.push(points.len() as u64);
+        }
+        let unsound = |source| ReadError::Yarns { file: file.into(), source };
+        let layout = Layout::new(yarns, offsets, vec![Section::Circle]).map_err(unsound)?;
+        let yarns = Yarns::new(layout, self.palette, points).map_err(unsound)?;
+        yarns.with_tension(tension.unwrap_or(0.0)).map_err(unsound)
+    }
+}
+
+/// The order of the curves: by the numbers of their yarns if each of `count` curves has one of its
+/// own, and else as in the file.
+fn order(numbers: &[u32], count: usize) -> Result<Vec<usize>, ReadError> {
+    let mut order = Vec::new();
+    room_for(&mut order, count, "yarns")?;
+    order.extend(0..count);
+    if numbers.len() == count {
+        order.sort_by_key(|&curve| numbers[curve]);
+        if order.windows(2).any(|pair| numbers[pair[0]] == numbers[pair[1]]) {
+            order.sort_unstable();
+        }
+    }
+    Ok(order)
+}
+
+/// The curves of a prim that is there.
+struct Reader<'a> {
+    tokens: &'a Tokens<'a>,
+    prim: &'a Prim<'a>,
+    curves: &'a Curves<'a>,
+    mm: Option<DMat4>,
+    scale: CurveScale,
+}
+
+impl Reader<'_> {
+    fn refused(&self, expected: String) -> ReadError {
+        self.tokens.refused(self.prim.kind, expected)
+    }
+
+    /// One of the words that a property may have. Without the property it is the first one.
+    fn word<T: Copy>(&self, given: Option<Token<'_>>, words: &[(&str, T)]) -> Result<T, ReadError> {
+        let Some(given) = given else { return Ok(words[0].1) };
+        let found = words.iter().find(|(word, _)| *word == given.text);
+        found.map(|(_, value)| *value).ok_or_else(|| {
+            let words: Vec<_> = words.iter().map(|(word, _)| *word).collect();
+            self.tokens.refused(given, words.join(" or "))
+        })
+    }
+
+    fn take(&self, cloth: &mut Cloth) -> Result<(), ReadError> {
+        let is_linear = self.word(self.curves.form, &[("cubic", false), ("linear", true)])?;
+        let bases = [("bezier", Form::Bezier), ("bspline", Form::BSpline), ("catmullRom", Form::CatmullRom)];
+        let form = if is_linear { Form::Linear } else { self.word(self.curves.basis, &bases)? };
+        let wraps =
+            [("nonperiodic", Wrap::Nonperiodic), ("periodic", Wrap::Periodic), ("pinned", Wrap::Pinned)];
+        let wrap = self.word(self.curves.wrap, &wraps)?;
+        let Some(points) = &self.curves.points else { return Err(self.refused("curves with points".into())) };
+        let counts = &self.curves.counts;
+        let all: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        if all != points.len() as u64 {
+            let expected = format!("{all} points, as curveVertexCounts says, for {}", points.len());
+            return Err(self.refused(expected));
+        }
+        let mut varying = Vec::new();
+        room_for(&mut varying, counts.len(), "curves")?;
+        for &count in counts {
+            let values = form.varying(wrap, count as usize);
+            let values = values.ok_or_else(|| self.refused(format!("no such curve of {count} points")))?;
+            varying.push(values);
+        }
+        let widths = self.widths(&varying)?;
+        let materials = self.materials(&mut cloth.palette);
+        room_for(&mut cloth.curves, counts.len(), "curves")?;
+        room_for(&mut cloth.materials, counts.len(), "curves")?;
+        if self.curves.yarns.len() == counts.len() {
+            room_for(&mut cloth.numbers, counts.len(), "curves")?;
+            cloth.numbers.extend(&self.curves.yarns);
+        }
+        let (mut vertex, mut value) = (0, 0);
+        for (number, (&count, &values)) in counts.iter().zip(&varying).enumerate() {
+            let own = vertex..vertex + count as usize;
+            let vertices = own.map(|vertex| {
+                let [x, y, z] = points[vertex].map(f64::from);
+                let place =
+                    self.mm.map_or(DVec3::new(x, y, z), |mm| mm.transform_point3(DVec3::new(x, y, z)));
+                [place.x, place.y, place.z, widths.at(number, vertex) / 2.0]
+            });
+            let radii = match &widths {
+                Widths::Varying(widths) => {
+                    Some(widths[value..value + values].iter().map(|width| width / 2.0).collect::<Vec<_>>())
+                }
+                _ => None,
+            };
+            cloth.curves.push(Curve::new(form, wrap, vertices.collect(), radii.as_deref()));
+            cloth.materials.push(materials[if materials.len() == 1 { 0 } else { number }]);
+            vertex += count as usize;
+            value += values;
+        }
+        Ok(())
+    }
+
+    /// The diameters, mm. `varying` is the number of those that vary along each curve.
+    fn widths(&self, varying: &[usize]) -> Result<Widths, ReadError> {
+        if let Some(diameter) = self.scale.diameter_mm {
+            return Ok(Widths::One(f64::from(diameter)));
+        }
+        let given = &self.curves.widths;
+        let factor = self.mm.map_or(1.0, |mm| mm.determinant().abs().cbrt());
+        let mut widths = Vec::new();
+        room_for(&mut widths, given.values.len(), "widths of curves")?;
+        widths.extend(given.values.iter().map(|&width| f64::from(width) * factor));
+        let interpolation = given.interpolation.map_or("vertex", |token| token.text);
+        let (count, each): (usize, fn(Vec<f64>) -> Widths) = match interpolation {
+            _ if widths.len() == 1 => return Ok(Widths::One(widths[0])),
+            "uniform" => (self.curves.counts.len(), Widths::Curve),
+            "varying" => (varying.iter().sum(), Widths::Varying),
+            _ => (self.curves.points.as_ref().map_or(0, Vec::len), Widths::Vertex),
+        };
+        if widths.is_empty() {
+            return Err(self.refused("curves with widths, or a diameter beside the file".into()));
+        }
+        if widths.len() != count {
+            return Err(self.refused(format!("{count} widths ({interpolation}) for {}", widths.len())));
+        }
+        Ok(each(widths))
+    }
+
+    /// The materials of the curves: one for all, or one for each. Colours that change along a curve
+    /// are passed over.
+    fn materials(&self, palette: &mut Vec<Material>) -> Vec<u32> {
+        let colors = &self.curves.colors.values;
+        let is_uniform = self.curves.colors.interpolation.is_some_and(|token| token.text == "uniform");
+        let counts = is_uniform && colors.len() == self.curves.counts.len();
+        let all = match colors.len() {
+            1 => vec![Some(colors[0])],
+            _ if counts => colors.iter().copied().map(Some).collect(),
+            _ => vec![None],
+        };
+        let mut known = BTreeMap::new();
+        let number = |color: Option<[f32; 3]>| {
+            let srgb = color.map_or_else(|| Material::default().srgb, |color| color.map(encoded));
+            *known.entry(srgb).or_insert_with(|| {
+                palette.push(Material { name: self.prim.name.clone(), srgb, ..Material::default() });
+                palette.len() as u32 - 1
+            })
+        };
+        all.into_iter().map(number).collect()
+    }
+}
+
+/// Diameters, mm.
+enum Widths {
+    One(f64),
+    Curve(Vec<f64>),
+    Vertex(Vec<f64>),
+    Varying(Vec<f64>),
+}
+
+impl Widths {
+    /// The width at a vertex of a curve. Those that vary along the curve come later.
+    fn at(&self, curve: usize, vertex: usize) -> f64 {
+        match self {
+            Self::One(width) => *width,
+            Self::Curve(widths) => widths[curve],
+            Self::Vertex(widths) => widths[vertex],
+            Self::Varying(_) => 0.0,
+        }
+    }
+}
+
+/// A channel of linear light as sRGB, 8 bits (IEC 61966-2-1).
+fn encoded(linear: f32) -> u8 {
+    let encoded = if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    (encoded * 255.0).round().clamp(0.0, 255.0) as u8
+}

@@ -1,0 +1,105 @@
+//! The place of a prim within the prim that it is in: translations, rotations and scales, in the
+//! order that the prim says.
+//!
+//! **Source**: Pixar, "UsdGeomXformable", openusd.org. USD's matrices stand before their points'
+//! rows. Here they stand before columns, so a file's rows are columns here.
+
+use std::collections::BTreeMap;
+
+use glam::{DMat4, DQuat, DVec3};
+
+use super::tokens::{Token, Tokens};
+use crate::read::ReadError;
+
+/// Operations of a prim.
+#[derive(Debug, Default)]
+pub(super) struct Place<'a> {
+    /// The operations by their names.
+    operations: BTreeMap<&'a str, DMat4>,
+    /// The names of those that count, the last of which acts first.
+    order: Vec<Token<'a>>,
+}
+
+/// The name of the operation that ends the inheritance of places.
+const RESET: &str = "!resetXformStack!";
+
+/// What stands before the name of an operation that is to be undone.
+const INVERSE: &str = "!invert!";
+
+impl<'a> Place<'a> {
+    /// Reads the value of a property `xformOp:…` or `xformOpOrder`.
+    pub(super) fn read(&mut self, tokens: &mut Tokens<'a>, name: Token<'a>) -> Result<(), ReadError> {
+        if name.text == "xformOpOrder" {
+            self.order = tokens.list("operations", Tokens::text)?;
+            return Ok(());
+        }
+        let three = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::double).map(DVec3::from_array);
+        let kind = name.text.split(':').nth(1).unwrap_or_default();
+        let operation = match kind {
+            "translate" => DMat4::from_translation(three(tokens)?),
+            "scale" => DMat4::from_scale(three(tokens)?),
+            "transform" => {
+                let rows: [[f64; 4]; 4] = tokens.tuple(|tokens| tokens.tuple(Tokens::double))?;
+                DMat4::from_cols_array_2d(&rows)
+            }
+            "orient" => {
+                let [w, x, y, z] = tokens.tuple(Tokens::double)?;
+                let turn = DQuat::from_xyzw(x, y, z, w);
+                DMat4::from_quat(if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY })
+            }
+            _ => {
+                let axes = kind.strip_prefix("rotate").filter(|axes| is_turn(axes));
+                let axes = axes.ok_or_else(|| tokens.refused(name, "an operation that texere knows"))?;
+                let degrees =
+                    if axes.len() == 1 { vec![tokens.double()?] } else { about(axes, three(tokens)?) };
+                turned(axes, &degrees)
+            }
+        };
+        self.operations.insert(name.text, operation);
+        Ok(())
+    }
+
+    /// The place within the prim that this one is in, and whether that prim counts.
+    ///
+    /// **Errors**: [`ReadError::Word`] for an operation that the prim lacks or that can't be
+    /// undone.
+    pub(super) fn matrix(&self, tokens: &Tokens<'_>) -> Result<(DMat4, bool), ReadError> {
+        let (mut matrix, mut inherits) = (DMat4::IDENTITY, true);
+        for &name in &self.order {
+            if name.text == RESET {
+                (matrix, inherits) = (DMat4::IDENTITY, false);
+                continue;
+            }
+            let inverse = name.text.strip_prefix(INVERSE);
+            let found = self.operations.get(inverse.unwrap_or(name.text));
+            let operation = *found.ok_or_else(|| tokens.refused(name, "an operation of the same prim"))?;
+            if inverse.is_some() && operation.determinant() == 0.0 {
+                return Err(tokens.refused(name, "an operation that can be undone"));
+            }
+            matrix *= if inverse.is_some() { operation.inverse() } else { operation };
+        }
+        Ok((matrix, inherits))
+    }
+}
+
+/// Whether axes such as `X` or `ZYX` are those of a rotation.
+fn is_turn(axes: &str) -> bool {
+    ["X", "Y", "Z", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"].contains(&axes)
+}
+
+/// The angles about `axes`, in the order of the axes. A file has them in the order X, Y, Z.
+fn about(axes: &str, degrees: DVec3) -> Vec<f64> {
+    axes.bytes().map(|axis| degrees[usize::from(axis - b'X')]).collect()
+}
+
+/// Rotations about `axes`, of which the first acts first.
+fn turned(axes: &str, degrees: &[f64]) -> DMat4 {
+    axes.bytes().zip(degrees).fold(DMat4::IDENTITY, |before, (axis, degrees)| {
+        let turn = match axis {
+            b'X' => DMat4::from_rotation_x,
+            b'Y' => DMat4::from_rotation_y,
+            _ => DMat4::from_rotation_z,
+        };
+        turn(degrees.to_radians()) * before
+    })
+}

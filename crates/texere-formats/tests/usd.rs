@@ -210,11 +210,79 @@ fn widths_belong_where_the_file_says() {
         assert_eq!(found, expected, "{interpolation}");
     }
     let error = read(&stage(&format!("{points}\nfloat[] widths = [1, 2]"))).unwrap_err().to_string();
-    assert!(error.ends_with("expected 9 widths (vertex) for 2"), "{error}");
+    assert!(error.ends_with("expected 9 widths (vertex); there are 2"), "{error}");
     // A diameter and a unit beside the file count instead of its own.
     let scale = CurveScale { unit_mm: Some(10.0), diameter_mm: Some(0.5) };
     let yarns = curves_from("c.usda", stage(points).as_bytes(), scale).unwrap();
     assert_eq!((yarns.points()[1].x, yarns.points()[1].half_width()), (20.0, 0.25));
+}
+
+/// A straight line stays a line of few points, wherever its handles lie.
+#[test]
+fn straight_pieces_of_any_length_stay_few() {
+    let count = 100;
+    let points: Vec<_> =
+        (0..=3 * count).map(|at| [(at / 3 + at / 6) as f32 + (at % 3) as f32 * 0.3, 0.0, 0.0]).collect();
+    let yarns = read(&curve("cubic", "bezier", "nonperiodic", &points)).unwrap();
+    assert!(yarns.points().len() <= 2 * count, "{}", yarns.points().len());
+    assert!(yarns.points().iter().all(|point| point.y == 0.0 && point.z == 0.0));
+}
+
+#[test]
+fn widths_within_a_piece_are_kept() {
+    let text = curve(
+        "cubic",
+        "bezier",
+        "nonperiodic",
+        &[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]],
+    );
+    let yarns = read(&text.replace("[0.5]", "[1, 0.1, 0.1, 1]")).unwrap();
+    // Bernstein: 1/8, 3/8, 3/8, 1/8.
+    let middle = yarns.points().iter().find(|point| point.x == 1.5).unwrap();
+    assert!((2.0 * middle.half_width() - (2.0 * 0.125 + 0.2 * 0.375)).abs() < 1e-3, "{middle:?}");
+}
+
+/// Curves that no one sees, and what other programs write beside curves.
+#[test]
+fn a_stage_is_read_as_its_program_meant_it() {
+    let curve = "int[] curveVertexCounts = [2, 2]\nuniform token type = \"linear\"\npoint3f[] points = [(0,0,0), (1,0,0), (0,1,0), \
+                 (1,1,0)]\nfloat[] widths = [1]\n";
+    let colors = |yarns: &Yarns| -> Vec<_> {
+        yarns.layout().yarns().iter().map(|yarn| yarns.materials()[yarn.material as usize].srgb).collect()
+    };
+    let red_green = "color3f[] primvars:displayColor = [(1,0,0), (0,1,0)] (interpolation = \"uniform\")\n";
+    let yarns = read(&stage(&format!("{curve}{red_green}"))).unwrap();
+    assert_eq!(colors(&yarns), [[255, 0, 0], [0, 255, 0]]);
+    let yarns =
+        read(&stage(&format!("{curve}{red_green}int[] primvars:displayColor:indices = [1, 0]"))).unwrap();
+    assert_eq!(colors(&yarns), [[0, 255, 0], [255, 0, 0]]);
+    let yarns = read(&stage(&format!("{curve}float[] primvars:widths = [0.5]"))).unwrap();
+    assert_eq!(yarns.points()[0].half_width(), 0.25);
+    for beside in [
+        "float[] primvars:yarn = [0.5, 2]",
+        "int primvars:yarn = 3",
+        "double3 xformOp:translate; token[] xformOpOrder = [\"xformOp:translate\"]",
+        "double xformOp:spin = 1",
+        "double3 xformOp:translate.timeSamples = { 1: (0, 0, 0) }",
+        "point3f[] points.timeSamples = { 1: [(0, 0, 0)] }",
+        "token visibility = \"inherited\"",
+        "/*/ one remark */",
+    ] {
+        assert_eq!(read(&stage(&format!("{curve}{beside}"))).unwrap().points().len(), 4, "{beside}");
+    }
+    for other in [
+        "def Camera \"c\" { double3 xformOp:translate.timeSamples = { 1: (0, 0, 0) }\n token[] xformOpOrder = [\"xformOp:translate\"] }",
+        "def BasisCurves \"none\" { }",
+        "def BasisCurves \"none\" { token visibility = \"invisible\"\n point3f[] points = [(0, 0, 0)] }",
+        "def BasisCurves \"none\" { token purpose = \"guide\"\n point3f[] points = [(0, 0, 0)] }",
+        "over BasisCurves \"none\" { point3f[] points.timeSamples = { 1: [(0, 0, 0)] } }",
+        "def \"d\" ( payload = None\n variants = { }\n delete references = @a@ ) { }",
+    ] {
+        assert_eq!(read(&(stage(curve) + other)).unwrap().points().len(), 4, "{other}");
+    }
+    // Letters of names.
+    let named = stage(curve).replace("\"c\"", "\"c\" ( displayName = \"a\\tb\\x41\\\\ \\\"\" )");
+    assert_eq!(read(&named).unwrap().materials()[0].name, "a\tbA\\ \"");
 }
 
 /// Whatever a stage holds besides its curves is passed over.
@@ -242,6 +310,16 @@ fn what_can_not_be_read_is_refused_with_its_place() {
     let whole = stage(&format!("{curve}float[] widths = [1]"));
     read(&whole).unwrap();
     for (from, to, expected) in [
+        (
+            "float[] widths = [1]",
+            "float[] widths = [1, 1] (interpolation = \"constant\")",
+            "expected 1 widths (constant); there are 2",
+        ),
+        (
+            "float[] widths = [1]",
+            "float[] widths = [1, 1] (interpolation = \"each\")",
+            "\"each\", expected constant, uniform",
+        ),
         ("#usda", "#sdf", "byte 0: the sign is #sdf 1.0"),
         ("1.0\n", "2.0\n", "line 1, column 7: \"2.0\", expected version 1"),
         ("\"Z\"", "\"W\"", "line 4, column 11: \"W\", expected X, Y or Z"),
@@ -251,9 +329,9 @@ fn what_can_not_be_read_is_refused_with_its_place() {
         (
             "[2]",
             "[3]",
-            "line 6, column 5: \"BasisCurves\", expected 3 points, as curveVertexCounts says, for 2",
+            "line 6, column 5: \"BasisCurves\", expected 3 points, as curveVertexCounts says; there are 2",
         ),
-        ("[2]", "[1, 1]", "expected no such curve of 1 points"),
+        ("[2]", "[1, 1]", "expected curves of another number of points: one has 1"),
         ("[2]", "[-2]", "line 8, column 28: \"-2\", expected a whole number"),
         ("linear", "flat", "line 9, column 22: \"flat\", expected cubic or linear"),
         ("(1,0,0)]", "(1,0)]", "line 10, column 34: \")\", expected \",\""),
@@ -267,8 +345,18 @@ fn what_can_not_be_read_is_refused_with_its_place() {
         ("float[] widths", "variantSet widths", "expected a stage without variants"),
         (
             "float[] widths = [1]",
-            "double xformOp:spin = 1",
-            "\"xformOp:spin\", expected an operation that texere knows",
+            "double xformOp:spin = 1; token[] xformOpOrder = [\"xformOp:spin\"]",
+            "\"xformOp:spin\", expected an operation that texere knows and that does not move",
+        ),
+        (
+            "float[] widths = [1]",
+            "double3 xformOp:scale = (0, 1, 1); token[] xformOpOrder = [\"!invert!xformOp:scale\"]",
+            "expected an operation that can be undone",
+        ),
+        (
+            "float[] widths = [1]",
+            "float[] widths = [1]; color3f[] primvars:displayColor = [(1, 0, 0)]; int[] primvars:displayColor:indices = [1]",
+            "expected colour 1; there are 1",
         ),
         (
             "float[] widths = [1]",

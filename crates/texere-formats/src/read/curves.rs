@@ -27,9 +27,10 @@ use crate::yarns_file::BYTES_MAX;
 /// B-spline curves of any wrap, where translations, rotations and scales place them. A yarn has the
 /// widths of its curve, and the colour of a prim or a curve becomes that of its material. Bézier
 /// and B-spline curves become splines through so many points that these run within a hundredth of
-/// the radius beside them. If all curves are splines of one tension, as those that texere writes,
-/// their own points are kept, and the yarns have that tension. One file is read: stages that refer
-/// to others, or have variants, are refused.
+/// the radius beside them; corners become round. If all curves are splines of one tension, as those
+/// that texere writes, their own points are kept, and the yarns have that tension. texere makes the
+/// points beyond the ends of a Catmull-Rom curve itself. One file is read: stages that refer to
+/// others, or have variants, are refused.
 ///
 /// Any other file is read as BCC, Binary Curve Collection. If a BCC or a USD file says that x or y
 /// is up, the curves are turned so that this axis becomes z.
@@ -68,7 +69,7 @@ pub fn curves(path: impl AsRef<Path>, scale: CurveScale) -> Result<Yarns, ReadEr
 ///
 /// ```
 /// use texere_formats::read::{self, CurveScale};
-/// let hat = b"#usda 1.0\ndef BasisCurves \"rim\" { token type = \"cubic\" }\n";
+/// let hat = b"#usda 1.0\ndef BasisCurves \"rim\" { int[] curveVertexCounts = [2] }\n";
 /// let error = read::curves_from("hat.usda", hat, CurveScale::default()).unwrap_err();
 /// assert!(error.to_string().starts_with("hat.usda, line 2, column 5: "), "{error}");
 /// ```

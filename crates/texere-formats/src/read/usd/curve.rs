@@ -30,6 +30,9 @@ pub(super) type Place = [f64; 4];
 pub(super) struct Curve {
     pub(super) shape: Shape,
     pub(super) is_closed: bool,
+    /// Whether the file has radii at the ends of pieces alone. Between them they are as the spline
+    /// has them.
+    pub(super) has_radii_at_ends: bool,
 }
 
 /// What says where a curve runs.
@@ -40,14 +43,6 @@ pub(super) enum Shape {
     /// Bézier curves of four places each, each of which begins where the one before it ends.
     Pieces(Vec<[Place; 4]>),
 }
-
-/// The most intervals that a Bézier piece becomes. A piece that needs more is longer than 10,000 of
-/// its radii, or has a cusp.
-const PARTS_MOST: usize = 64;
-
-/// How far a spline may run beside a Bézier curve that it stands for, as a share of the radius. No
-/// picture shows a hundredth. With a tenth `curves_of_every_basis_run_where_they_should` is red.
-const BESIDE: f64 = 0.01;
 
 impl Form {
     /// How many vertices of a curve of `count` have a value that varies along the curve, or none if
@@ -81,7 +76,7 @@ impl Curve {
                 let count = vertices.len();
                 let pieces = (0..count.saturating_sub(1)).step_by(3);
                 let pieces = pieces.map(|at| std::array::from_fn(|vertex| vertices[(at + vertex) % count]));
-                Self { shape: Shape::Pieces(pieces.collect()), is_closed: is_periodic }
+                Self::of(Shape::Pieces(pieces.collect()), is_periodic)
             }
             Form::BSpline => b_spline(&vertices, wrap),
         };
@@ -92,8 +87,13 @@ impl Curve {
         curve
     }
 
+    const fn of(shape: Shape, is_closed: bool) -> Self {
+        Self { shape, is_closed, has_radii_at_ends: false }
+    }
+
     /// Gives the curve radii that vary along it.
     fn vary(&mut self, radii: &[f64]) {
+        self.has_radii_at_ends = true;
         match &mut self.shape {
             Shape::Through(places) => {
                 places.iter_mut().zip(radii.iter().cycle()).for_each(|(place, radius)| place[3] = *radius);
@@ -112,7 +112,7 @@ impl Curve {
     /// Closes a curve of Bézier pieces that ends where it begins.
     fn join(&mut self) {
         if let Shape::Pieces(pieces) = &self.shape
-            && let [first, _, .., last] = &pieces[..]
+            && let (Some(first), Some(last)) = (pieces.first(), pieces.last())
         {
             self.is_closed |= first[0] == last[3];
         }
@@ -125,15 +125,15 @@ fn through(mut places: Vec<Place>, is_periodic: bool) -> Curve {
     if ends_at_start {
         places.pop();
     }
-    Curve { shape: Shape::Through(places), is_closed: is_periodic || ends_at_start }
+    Curve::of(Shape::Through(places), is_periodic || ends_at_start)
 }
 
-/// Catmull-Rom curves are splines of tension 0. A nonperiodic one has a vertex beyond each end. If
-/// these are the vertices before its end and after its start, and it ends where it begins, the
-/// curve is closed.
+/// Catmull-Rom curves are splines of tension 0. A nonperiodic one has a vertex beyond each end. The
+/// curve is closed if it ends where it begins, the vertex beyond its start equals the one before
+/// its end, and the vertex beyond its end equals the one after its start.
 fn catmull_rom(mut vertices: Vec<Place>, wrap: Wrap) -> Curve {
     if wrap != Wrap::Nonperiodic {
-        return Curve { shape: Shape::Through(vertices), is_closed: wrap == Wrap::Periodic };
+        return Curve::of(Shape::Through(vertices), wrap == Wrap::Periodic);
     }
     let is_closed = match &vertices[..] {
         [before, start, after, .., last, end, beyond] if vertices.len() > 5 => {
@@ -146,7 +146,7 @@ fn catmull_rom(mut vertices: Vec<Place>, wrap: Wrap) -> Curve {
         vertices.pop();
     }
     vertices.remove(0);
-    Curve { shape: Shape::Through(vertices), is_closed }
+    Curve::of(Shape::Through(vertices), is_closed)
 }
 
 fn b_spline(vertices: &[Place], wrap: Wrap) -> Curve {
@@ -174,112 +174,5 @@ fn b_spline(vertices: &[Place], wrap: Wrap) -> Curve {
         };
         [[1.0, 4.0, 1.0, 0.0], [0.0, 4.0, 2.0, 0.0], [0.0, 2.0, 4.0, 0.0], [0.0, 1.0, 4.0, 1.0]].map(mixed)
     };
-    Curve { shape: Shape::Pieces((0..pieces).map(piece).collect()), is_closed: wrap == Wrap::Periodic }
-}
-
-/// The tension of splines through the ends of all Bézier pieces that have the pieces' shape, if
-/// there is one. It is 0 if the curves have no pieces.
-pub(super) fn tension(curves: &[Curve]) -> Option<f32> {
-    let (mut along, mut square) = (0.0, 0.0);
-    handles(curves, |[offset, step], _| {
-        along += dot(offset, step);
-        square += dot(step, step);
-    });
-    let has_lines = curves.iter().any(|curve| matches!(curve.shape, Shape::Through(_)));
-    // The handle of a spline of tension 0 is a sixth of the way between its neighbours.
-    let share = if has_lines || square == 0.0 { 1.0 / 6.0 } else { along / square };
-    let mut fits = (0.0..1.0 / 6.0 + 1e-3).contains(&share) && share > 0.0;
-    handles(curves, |[offset, step], radius| {
-        let off: Place = std::array::from_fn(|axis| offset[axis] - share * step[axis]);
-        fits &= dot(off, off).sqrt() <= BESIDE * radius;
-    });
-    fits.then_some((1.0 - 6.0 * share).max(0.0) as f32)
-}
-
-/// Calls `each` for both handles at each end of a Bézier piece: from the end to the handle, and
-/// between the neighbours of the end, with the radius there. At the two ends of an open curve the
-/// neighbour beyond it is as far away as the one within.
-fn handles(curves: &[Curve], mut each: impl FnMut([Place; 2], f64)) {
-    let from_to = |from: Place, to: Place| std::array::from_fn(|axis| to[axis] - from[axis]);
-    for curve in curves {
-        let Shape::Pieces(pieces) = &curve.shape else { continue };
-        let count = pieces.len();
-        for (number, &[start, leaving, arriving, end]) in pieces.iter().enumerate() {
-            let before = (curve.is_closed || number > 0).then(|| pieces[(number + count - 1) % count][0]);
-            let after = (curve.is_closed || number + 1 < count).then(|| pieces[(number + 1) % count][3]);
-            let twice = |step: Place| step.map(|axis| 2.0 * axis);
-            let step = before.map_or_else(|| twice(from_to(start, end)), |before| from_to(before, end));
-            each([from_to(start, leaving), step], start[3]);
-            let step = after.map_or_else(|| twice(from_to(end, start)), |after| from_to(after, start));
-            each([from_to(end, arriving), step], end[3]);
-        }
-    }
-}
-
-/// The product of two steps, without their radii.
-fn dot(a: Place, b: Place) -> f64 {
-    (0..3).map(|axis| a[axis] * b[axis]).sum()
-}
-
-impl Curve {
-    /// The places that a spline runs through: the ends of Bézier pieces.
-    pub(super) fn ends(&self) -> Vec<Place> {
-        match &self.shape {
-            Shape::Through(places) => places.clone(),
-            Shape::Pieces(_) => self.sampled(1),
-        }
-    }
-
-    /// The places that a spline of tension 0 runs through, so many that it is the curve within a
-    /// hundredth of the radius.
-    pub(super) fn places(&self) -> Vec<Place> {
-        let Shape::Pieces(pieces) = &self.shape else { return self.ends() };
-        let mut parts = if self.is_closed && pieces.len() < 3 { 4 } else { 1 };
-        while parts < PARTS_MOST && self.is_beside(&self.sampled(parts), parts) {
-            parts *= 2;
-        }
-        self.sampled(parts)
-    }
-
-    /// Places on the pieces, `parts` for each.
-    fn sampled(&self, parts: usize) -> Vec<Place> {
-        let Shape::Pieces(pieces) = &self.shape else { return Vec::new() };
-        let within =
-            pieces.iter().flat_map(|piece| (0..parts).map(|part| at(piece, part as f64 / parts as f64)));
-        within.chain(pieces.last().filter(|_| !self.is_closed).map(|piece| piece[3])).collect()
-    }
-
-    /// Whether the spline through `places` runs beside the pieces in the middle of its intervals.
-    fn is_beside(&self, places: &[Place], parts: usize) -> bool {
-        let Shape::Pieces(pieces) = &self.shape else { return false };
-        let count = places.len();
-        let reflected =
-            |from: Place, to: Place| -> Place { std::array::from_fn(|axis| 2.0 * from[axis] - to[axis]) };
-        (0..pieces.len() * parts).any(|interval| {
-            let (start, end) = (places[interval], places[(interval + 1) % count]);
-            let (opens, closes) = (interval == 0, interval + 2 > count - 1);
-            let before = if self.is_closed || !opens {
-                places[(interval + count - 1) % count]
-            } else {
-                reflected(start, end)
-            };
-            let after = if self.is_closed || !closes {
-                places[(interval + 2) % count]
-            } else {
-                reflected(end, start)
-            };
-            let should = at(&pieces[interval / parts], ((interval % parts) as f64 + 0.5) / parts as f64);
-            let off: Place = std::array::from_fn(|axis| {
-                (9.0 * (start[axis] + end[axis]) - before[axis] - after[axis]) / 16.0 - should[axis]
-            });
-            dot(off, off).sqrt() > BESIDE * should[3]
-        })
-    }
-}
-
-/// The place at parameter `t` of a Bézier curve. Its ends are exact.
-fn at(piece: &[Place; 4], t: f64) -> Place {
-    let s = 1.0 - t;
-    let shares = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-    std::array::from_fn(|axis| shares.iter().zip(piece).map(|(share, place)| share * place[axis]).sum())
+    Curve::of(Shape::Pieces((0..pieces).map(piece).collect()), wrap == Wrap::Periodic)
 }

@@ -5,6 +5,7 @@
 
 mod curve;
 mod place;
+mod spline;
 mod stage;
 mod tokens;
 mod values;
@@ -16,7 +17,8 @@ use glam::{DMat4, DVec3};
 use texere_core::backend::room_for;
 use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
 
-use curve::{Curve, Form, Wrap, tension};
+use curve::{Curve, Form, Wrap};
+use spline::{control_points, tension};
 use stage::{Curves, Prim, Stage};
 use tokens::{Token, Tokens};
 
@@ -46,9 +48,9 @@ pub(super) fn usd(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns,
     }
     let stage = stage::stage(&mut tokens)?;
     let mut cloth = Cloth::default();
-    let mut worlds: Vec<World> = Vec::new();
+    let mut worlds: Vec<World<'_>> = Vec::new();
     for prim in &stage.prims {
-        let world = World::of(prim, prim.parent.map(|parent| worlds[parent]), &tokens)?;
+        let world = World::of(prim, prim.parent.map(|parent| worlds[parent]));
         room_for(&mut worlds, 1, "prims")?;
         worlds.push(world);
         if !world.is_there {
@@ -58,6 +60,9 @@ pub(super) fn usd(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns,
             return Err(tokens.refused(prim.kind, "BasisCurves"));
         }
         if let Some(curves) = &prim.curves {
+            if let Some((name, expected)) = world.fault {
+                return Err(tokens.refused(name, expected));
+            }
             if world.is_instanced {
                 return Err(tokens.refused(prim.kind, "curves outside a PointInstancer"));
             }
@@ -83,26 +88,28 @@ fn sign(file: &Path, bytes: &[u8]) -> ReadError {
 
 /// Where a prim is in the stage.
 #[derive(Debug, Clone, Copy)]
-struct World {
+struct World<'a> {
     matrix: DMat4,
+    /// An operation that can't be taken, and what was expected.
+    fault: Option<(Token<'a>, &'static str)>,
     /// Whether the prim and all that it is in are there.
     is_there: bool,
-    /// Whether the prim is in one that copies it.
+    /// Whether the prim is a PointInstancer, or in one.
     is_instanced: bool,
 }
 
-impl World {
-    fn of(prim: &Prim<'_>, parent: Option<Self>, tokens: &Tokens<'_>) -> Result<Self, ReadError> {
-        let parent = parent.unwrap_or(Self { matrix: DMat4::IDENTITY, is_there: true, is_instanced: false });
-        let matrix = match &prim.place {
-            None => parent.matrix,
-            Some(place) => {
-                let (matrix, inherits) = place.matrix(tokens)?;
-                if inherits { parent.matrix * matrix } else { matrix }
-            }
+impl<'a> World<'a> {
+    fn of(prim: &Prim<'a>, parent: Option<Self>) -> Self {
+        let stage = Self { matrix: DMat4::IDENTITY, fault: None, is_there: true, is_instanced: false };
+        let parent = parent.unwrap_or(stage);
+        let (matrix, fault) = match prim.place.as_ref().map(|place| place.matrix()) {
+            None => (parent.matrix, parent.fault),
+            Some(Ok((matrix, true))) => (parent.matrix * matrix, parent.fault),
+            Some(Ok((matrix, false))) => (matrix, None),
+            Some(Err(fault)) => (parent.matrix, Some(fault)),
         };
         let is_instanced = parent.is_instanced || prim.kind.text == "PointInstancer";
-        Ok(Self { matrix, is_there: parent.is_there && prim.is_there, is_instanced })
+        Self { matrix, fault, is_there: parent.is_there && prim.is_there, is_instanced }
     }
 }
 
@@ -151,15 +158,18 @@ impl Cloth {
         let (mut yarns, mut offsets, mut points) = (Vec::new(), vec![0], Vec::<ControlPoint>::new());
         room_for(&mut yarns, self.curves.len(), "yarns")?;
         room_for(&mut offsets, self.curves.len(), "yarns")?;
+        let mut curves: Vec<_> = self.curves.into_iter().map(Some).collect();
         for number in order {
-            let (curve, material) = (&self.curves[number], self.materials[number]);
-            let places = if tension.is_some() { curve.ends() } else { curve.places() };
+            let (curve, material) = (curves[number].take(), self.materials[number]);
+            let Some(curve) = curve else { continue };
+            let is_closed = curve.is_closed;
+            let places = control_points(curve, tension.is_some())?;
             room_for(&mut points, places.len(), "control points")?;
             points.extend(places.iter().map(|place| {
                 let [x, y, z, radius] = place.map(|value| value as f32);
                 ControlPoint::new(x, y, z, radius)
             }));
-            yarns.push(Yarn { closed: curve.is_closed, material, ..Yarn::default() });
+            yarns.push(Yarn { closed: is_closed, material, ..Yarn::default() });
             offsets.push(points.len() as u64);
         }
         let unsound = |source| ReadError::Yarns { file: file.into(), source };
@@ -198,7 +208,8 @@ impl Reader<'_> {
         self.tokens.refused(self.prim.kind, expected)
     }
 
-    /// One of the words that a property may have. Without the property it is the first one.
+    /// The value of a property that may be one of `words`. Without the property it is that of the
+    /// first word, which is USD's own choice.
     fn word<T: Copy>(&self, given: Option<Token<'_>>, words: &[(&str, T)]) -> Result<T, ReadError> {
         let Some(given) = given else { return Ok(words[0].1) };
         let found = words.iter().find(|(word, _)| *word == given.text);
@@ -215,22 +226,29 @@ impl Reader<'_> {
         let wraps =
             [("nonperiodic", Wrap::Nonperiodic), ("periodic", Wrap::Periodic), ("pinned", Wrap::Pinned)];
         let wrap = self.word(self.curves.wrap, &wraps)?;
-        let Some(points) = &self.curves.points else { return Err(self.refused("curves with points".into())) };
-        let counts = &self.curves.counts;
+        let (points, counts) = (&self.curves.points, &self.curves.counts);
+        if let Some(moving) = self.curves.moving.filter(|_| points.is_empty()) {
+            let expected = "points at the default time: curves that move are not read";
+            return Err(self.tokens.refused(moving, expected));
+        }
+        if points.is_empty() && counts.is_empty() {
+            return Ok(());
+        }
         let all: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         if all != points.len() as u64 {
-            let expected = format!("{all} points, as curveVertexCounts says, for {}", points.len());
+            let expected = format!("{all} points, as curveVertexCounts says; there are {}", points.len());
             return Err(self.refused(expected));
         }
         let mut varying = Vec::new();
         room_for(&mut varying, counts.len(), "curves")?;
         for &count in counts {
             let values = form.varying(wrap, count as usize);
-            let values = values.ok_or_else(|| self.refused(format!("no such curve of {count} points")))?;
+            let expected = || format!("curves of another number of points: one has {count}");
+            let values = values.ok_or_else(|| self.refused(expected()))?;
             varying.push(values);
         }
         let widths = self.widths(&varying)?;
-        let materials = self.materials(&mut cloth.palette);
+        let materials = self.materials(&mut cloth.palette)?;
         room_for(&mut cloth.curves, counts.len(), "curves")?;
         room_for(&mut cloth.materials, counts.len(), "curves")?;
         if self.curves.yarns.len() == counts.len() {
@@ -265,31 +283,43 @@ impl Reader<'_> {
         if let Some(diameter) = self.scale.diameter_mm {
             return Ok(Widths::One(f64::from(diameter)));
         }
-        let given = &self.curves.widths;
+        let primvars = &self.curves.primvar_widths;
+        let given = if primvars.values.is_empty() { &self.curves.widths } else { primvars };
         let factor = self.mm.map_or(1.0, |mm| mm.determinant().abs().cbrt());
         let mut widths = Vec::new();
         room_for(&mut widths, given.values.len(), "widths of curves")?;
         widths.extend(given.values.iter().map(|&width| f64::from(width) * factor));
         let interpolation = given.interpolation.map_or("vertex", |token| token.text);
-        let (count, each): (usize, fn(Vec<f64>) -> Widths) = match interpolation {
+        let (count, each): (usize, fn(Vec<f64>) -> Widths) = match (interpolation, given.interpolation) {
             _ if widths.len() == 1 => return Ok(Widths::One(widths[0])),
-            "uniform" => (self.curves.counts.len(), Widths::Curve),
-            "varying" => (varying.iter().sum(), Widths::Varying),
-            _ => (self.curves.points.as_ref().map_or(0, Vec::len), Widths::Vertex),
+            _ if widths.is_empty() => {
+                return Err(self.refused("curves with widths, or a diameter beside the file".into()));
+            }
+            ("constant", _) => (1, Widths::Curve),
+            ("uniform", _) => (self.curves.counts.len(), Widths::Curve),
+            ("varying" | "faceVarying", _) => (varying.iter().sum(), Widths::Varying),
+            (_, Some(token)) if interpolation != "vertex" => {
+                return Err(self.tokens.refused(token, "constant, uniform, varying or vertex"));
+            }
+            _ => (self.curves.points.len(), Widths::Vertex),
         };
-        if widths.is_empty() {
-            return Err(self.refused("curves with widths, or a diameter beside the file".into()));
-        }
         if widths.len() != count {
-            return Err(self.refused(format!("{count} widths ({interpolation}) for {}", widths.len())));
+            let found = widths.len();
+            return Err(self.refused(format!("{count} widths ({interpolation}); there are {found}")));
         }
         Ok(each(widths))
     }
 
     /// The materials of the curves: one for all, or one for each. Colours that change along a curve
     /// are passed over.
-    fn materials(&self, palette: &mut Vec<Material>) -> Vec<u32> {
-        let colors = &self.curves.colors.values;
+    fn materials(&self, palette: &mut Vec<Material>) -> Result<Vec<u32>, ReadError> {
+        let own = &self.curves.colors.values;
+        let numbered = self.curves.color_indices.iter().map(|&index| {
+            let color = own.get(index as usize).copied();
+            color.ok_or_else(|| self.refused(format!("colour {index}; there are {}", own.len())))
+        });
+        let numbered = numbered.collect::<Result<Vec<_>, _>>()?;
+        let colors = if numbered.is_empty() { own } else { &numbered };
         let is_uniform = self.curves.colors.interpolation.is_some_and(|token| token.text == "uniform");
         let counts = is_uniform && colors.len() == self.curves.counts.len();
         let all = match colors.len() {
@@ -305,7 +335,7 @@ impl Reader<'_> {
                 palette.len() as u32 - 1
             })
         };
-        all.into_iter().map(number).collect()
+        Ok(all.into_iter().map(number).collect())
     }
 }
 

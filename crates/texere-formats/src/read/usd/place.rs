@@ -1,8 +1,8 @@
 //! The place of a prim within the prim that it is in: translations, rotations and scales, in the
 //! order that the prim says.
 //!
-//! **Source**: Pixar, "UsdGeomXformable", openusd.org. USD's matrices stand before their points'
-//! rows. Here they stand before columns, so a file's rows are columns here.
+//! **Source**: Pixar, "UsdGeomXformable", openusd.org. USD multiplies a row by a matrix, glam a
+//! matrix by a column, so a file's rows are columns here.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,8 @@ use crate::read::ReadError;
 /// Operations of a prim.
 #[derive(Debug, Default)]
 pub(super) struct Place<'a> {
-    /// The operations by their names.
-    operations: BTreeMap<&'a str, DMat4>,
+    /// The operations by their names. None is one that can't be read.
+    operations: BTreeMap<&'a str, Option<DMat4>>,
     /// The names of those that count, the last of which acts first.
     order: Vec<Token<'a>>,
 }
@@ -33,11 +33,21 @@ impl<'a> Place<'a> {
             self.order = tokens.list("operations", Tokens::text)?;
             return Ok(());
         }
+        if let Some(name) = name.text.strip_suffix(".timeSamples") {
+            self.operations.entry(name).or_insert(None);
+            return tokens.pass_over_value();
+        }
         let three = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::double).map(DVec3::from_array);
         let kind = name.text.split(':').nth(1).unwrap_or_default();
         let operation = match kind {
             "translate" => DMat4::from_translation(three(tokens)?),
+            "translateX" => DMat4::from_translation(tokens.double()? * DVec3::X),
+            "translateY" => DMat4::from_translation(tokens.double()? * DVec3::Y),
+            "translateZ" => DMat4::from_translation(tokens.double()? * DVec3::Z),
             "scale" => DMat4::from_scale(three(tokens)?),
+            "scaleX" => DMat4::from_scale(DVec3::ONE.with_x(tokens.double()?)),
+            "scaleY" => DMat4::from_scale(DVec3::ONE.with_y(tokens.double()?)),
+            "scaleZ" => DMat4::from_scale(DVec3::ONE.with_z(tokens.double()?)),
             "transform" => {
                 let rows: [[f64; 4]; 4] = tokens.tuple(|tokens| tokens.tuple(Tokens::double))?;
                 DMat4::from_cols_array_2d(&rows)
@@ -48,22 +58,29 @@ impl<'a> Place<'a> {
                 DMat4::from_quat(if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY })
             }
             _ => {
-                let axes = kind.strip_prefix("rotate").filter(|axes| is_turn(axes));
-                let axes = axes.ok_or_else(|| tokens.refused(name, "an operation that texere knows"))?;
+                let Some(axes) = kind.strip_prefix("rotate").filter(|axes| is_turn(axes)) else {
+                    self.operations.insert(name.text, None);
+                    return tokens.pass_over_value();
+                };
                 let degrees =
                     if axes.len() == 1 { vec![tokens.double()?] } else { about(axes, three(tokens)?) };
                 turned(axes, &degrees)
             }
         };
-        self.operations.insert(name.text, operation);
+        self.operations.insert(name.text, Some(operation));
         Ok(())
+    }
+
+    /// Takes a property that has no value. It changes nothing.
+    pub(super) fn declare(&mut self, name: Token<'a>) {
+        self.operations.entry(name.text).or_insert(Some(DMat4::IDENTITY));
     }
 
     /// The place within the prim that this one is in, and whether that prim counts.
     ///
-    /// **Errors**: [`ReadError::Word`] for an operation that the prim lacks or that can't be
-    /// undone.
-    pub(super) fn matrix(&self, tokens: &Tokens<'_>) -> Result<(DMat4, bool), ReadError> {
+    /// **Errors**: an operation that the prim lacks, or that can't be read or undone, with what was
+    /// expected.
+    pub(super) fn matrix(&self) -> Result<(DMat4, bool), (Token<'a>, &'static str)> {
         let (mut matrix, mut inherits) = (DMat4::IDENTITY, true);
         for &name in &self.order {
             if name.text == RESET {
@@ -72,9 +89,11 @@ impl<'a> Place<'a> {
             }
             let inverse = name.text.strip_prefix(INVERSE);
             let found = self.operations.get(inverse.unwrap_or(name.text));
-            let operation = *found.ok_or_else(|| tokens.refused(name, "an operation of the same prim"))?;
+            let operation = found.ok_or((name, "an operation of the same prim"))?;
+            let operation =
+                operation.ok_or((name, "an operation that texere knows and that does not move"))?;
             if inverse.is_some() && operation.determinant() == 0.0 {
-                return Err(tokens.refused(name, "an operation that can be undone"));
+                return Err((name, "an operation that can be undone"));
             }
             matrix *= if inverse.is_some() { operation.inverse() } else { operation };
         }

@@ -26,9 +26,9 @@ pub(super) struct Prim<'a> {
     pub(super) parent: Option<usize>,
     /// The type, such as `BasisCurves`. It is empty for a prim without one.
     pub(super) kind: Token<'a>,
-    /// The name, which a reader of the stage is shown.
+    /// What people are shown: the prim's `displayName`, or else its name.
     pub(super) name: String,
-    /// Whether the prim is there: defined, and not switched off.
+    /// Whether the prim is there: defined, active, visible, and neither a guide nor a stand-in.
     pub(super) is_there: bool,
     /// Where the prim is within the prim that it is in.
     pub(super) place: Option<Box<Place<'a>>>,
@@ -41,13 +41,19 @@ pub(super) struct Prim<'a> {
 pub(super) struct Curves<'a> {
     /// For each curve, how many of the points it has.
     pub(super) counts: Vec<u32>,
-    pub(super) points: Option<Vec<[f32; 3]>>,
+    pub(super) points: Vec<[f32; 3]>,
+    /// The name of the points that change with time.
+    pub(super) moving: Option<Token<'a>>,
     /// Diameters.
     pub(super) widths: Values<'a, f32>,
+    /// Diameters that count instead, if there are any.
+    pub(super) primvar_widths: Values<'a, f32>,
     /// For each curve, which of the stage's yarns it is. texere writes these numbers.
     pub(super) yarns: Vec<u32>,
     /// Colours in linear light.
     pub(super) colors: Values<'a, [f32; 3]>,
+    /// For each curve the number of its colour, if colours are numbered.
+    pub(super) color_indices: Vec<u32>,
     /// `linear` or `cubic`.
     pub(super) form: Option<Token<'a>>,
     pub(super) basis: Option<Token<'a>>,
@@ -165,12 +171,13 @@ fn said<'a>(
             Kind::Word => {}
             _ => return Err(tokens.refused(token, "a name or a bracket )")),
         }
+        let is_deleted = token.text == "delete";
         if QUALIFIERS.contains(&token.text) {
             token = tokens.next()?;
         }
         tokens.sign(b'=')?;
-        if COMPOSED.contains(&token.text) {
-            let what = "a stage without this: texere reads one file. `usdcat --flatten` makes one";
+        if COMPOSED.contains(&token.text) && !is_deleted && !is_nothing(tokens)? {
+            let what = "a stage without this, which `usdcat --flatten` makes if no prim is instanceable";
             return Err(tokens.refused(token, what));
         }
         match token.text {
@@ -181,6 +188,17 @@ fn said<'a>(
             _ => tokens.pass_over_value()?,
         }
     }
+}
+
+/// Whether the next value is `None` or empty brackets. It stays the next one.
+fn is_nothing(tokens: &Tokens<'_>) -> Result<bool, ReadError> {
+    let mut ahead = *tokens;
+    let first = ahead.next()?;
+    Ok(match first.kind {
+        Kind::Sign(b'[') => ahead.took(b']')?,
+        Kind::Sign(b'{') => ahead.took(b'}')?,
+        _ => first.is("None"),
+    })
 }
 
 /// The rest of a statement `reorder nameChildren = ["a"]`.
@@ -217,12 +235,15 @@ fn property<'a>(tokens: &mut Tokens<'a>, token: Token<'a>, prim: &mut Prim<'a>) 
     }
     if tokens.took(b'=')? {
         value(tokens, name, prim)?;
+    } else if name.text.starts_with("xformOp:") {
+        prim.place.get_or_insert_default().declare(name);
     }
     if tokens.took(b'(')? {
         let said = said(tokens, |_, _| Ok(false))?;
         if let Some(curves) = &mut prim.curves {
             match name.text {
                 "widths" => curves.widths.interpolation = said.interpolation,
+                "primvars:widths" => curves.primvar_widths.interpolation = said.interpolation,
                 "primvars:displayColor" => curves.colors.interpolation = said.interpolation,
                 _ => {}
             }
@@ -240,20 +261,36 @@ fn value<'a>(tokens: &mut Tokens<'a>, name: Token<'a>, prim: &mut Prim<'a>) -> R
     if name.text.starts_with("xformOp") {
         return prim.place.get_or_insert_default().read(tokens, name);
     }
+    if ["visibility", "purpose"].contains(&name.text) {
+        prim.is_there &= !["invisible", "guide", "proxy"].contains(&tokens.text()?.text);
+        return Ok(());
+    }
     let Some(curves) = &mut prim.curves else { return tokens.pass_over_value() };
     let triple = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::float);
     match name.text {
-        "points" => curves.points = Some(tokens.list("points of curves", triple)?),
+        "points" => curves.points = tokens.list("points of curves", triple)?,
+        "points.timeSamples" => {
+            curves.moving = Some(name);
+            tokens.pass_over_value()?;
+        }
         "curveVertexCounts" => curves.counts = tokens.list("curves", Tokens::count)?,
         "widths" => curves.widths.values = tokens.list("widths of curves", Tokens::float)?,
+        "primvars:widths" => {
+            curves.primvar_widths.values = tokens.list("widths of curves", Tokens::float)?;
+        }
+        "primvars:displayColor:indices" => curves.color_indices = tokens.list("curves", Tokens::count)?,
         "primvars:displayColor" => curves.colors.values = tokens.list("colours of curves", triple)?,
-        "primvars:yarn" => curves.yarns = tokens.list("curves", Tokens::count)?,
+        // Other programs may call something else by this name.
+        "primvars:yarn" => {
+            let mut ahead = *tokens;
+            if let Ok(yarns) = ahead.list("curves", Tokens::count) {
+                curves.yarns = yarns;
+            }
+            tokens.pass_over_value()?;
+        }
         "type" => curves.form = Some(tokens.text()?),
         "basis" => curves.basis = Some(tokens.text()?),
         "wrap" => curves.wrap = Some(tokens.text()?),
-        "points.timeSamples" => {
-            return Err(tokens.refused(name, "points at the default time: curves that move are not read"));
-        }
         _ => tokens.pass_over_value()?,
     }
     Ok(())

@@ -90,8 +90,8 @@ impl<'a> Tokens<'a> {
         Ok(Token { kind, text: &left[skipped..end], at })
     }
 
-    /// A text in quotes, of which three may stand at each end. A backslash takes the next letter
-    /// out of the grammar.
+    /// A text in quotes, of which three may stand at each end. The letter after a backslash does
+    /// not end the text.
     fn quoted(&self, left: &str, quote: char) -> Result<(Kind, usize, usize), ReadError> {
         let three = [quote; 3].iter().collect::<String>();
         let mark = if left.starts_with(&three) { &three[..] } else { &three[..1] };
@@ -125,10 +125,9 @@ impl<'a> Tokens<'a> {
             self.at = self.text.len() - left.len();
             if left.starts_with('#') || left.starts_with("//") {
                 self.at += left.find('\n').unwrap_or(left.len());
-            } else if left.starts_with("/*") {
-                let end = left.find("*/");
-                self.at +=
-                    2 + end.ok_or_else(|| self.cut_short(self.at, left, "a remark that ends with */"))?;
+            } else if let Some(remark) = left.strip_prefix("/*") {
+                let end = remark.find("*/").map(|end| end + 4);
+                self.at += end.ok_or_else(|| self.cut_short(self.at, left, "a remark that ends with */"))?;
             } else {
                 return Ok(());
             }

@@ -108,12 +108,25 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// A text with its backslashes taken out.
+/// A text with the letters that its backslashes stand for.
 pub(super) fn unescaped(text: &str) -> String {
     let mut letters = text.chars();
     let mut plain = String::new();
     while let Some(letter) = letters.next() {
-        plain.push(if letter == '\\' { letters.next().unwrap_or(letter) } else { letter });
+        if letter != '\\' {
+            plain.push(letter);
+            continue;
+        }
+        match letters.next() {
+            Some('n') => plain.push('\n'),
+            Some('r') => plain.push('\r'),
+            Some('t') => plain.push('\t'),
+            Some('x') => {
+                let digits: String = letters.by_ref().take(2).collect();
+                plain.extend(u8::from_str_radix(&digits, 16).map(char::from));
+            }
+            other => plain.extend(other),
+        }
     }
     plain
 }

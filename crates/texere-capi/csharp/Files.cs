@@ -26,6 +26,8 @@ namespace Texere
         Stl = 2,
         /// <summary>OBJ, .obj. A callback gets the bytes of that file alone, which names materials.mtl.</summary>
         Obj = 3,
+        /// <summary>glTF 2.0 with vertices of 12 bytes; texere.h says how exact they are.</summary>
+        PackedGlb = 4,
     }
 
     /// <summary>The forms of yarns in a file.</summary>
@@ -37,6 +39,8 @@ namespace Texere
         Bcc = 1,
         /// <summary>The text form of Universal Scene Description, .usda: curves with diameters and colours.</summary>
         Usda = 2,
+        /// <summary>That form with straight lines between control points, for simulators.</summary>
+        LinearUsda = 3,
     }
 
     /// <summary>A callback of the library that writes the bytes of a file to a stream.</summary>

@@ -337,6 +337,13 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_FORMAT_OBJ = 3;
         /// <summary>
+        ///  glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
+        ///  extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
+        ///  largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
+        ///  made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_PACKED_GLB = 4;
+        /// <summary>
         ///  texere's own form of yarns, `.yarns`.
         /// </summary>
         internal const uint TEXERE_YARNS_FORMAT_YARNS = 0;
@@ -348,6 +355,11 @@ namespace Texere
         ///  The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
         /// </summary>
         internal const uint TEXERE_YARNS_FORMAT_USDA = 2;
+        /// <summary>
+        ///  The text form of Universal Scene Description with straight lines between control points, for
+        ///  simulators. It has thicknesses and masses as the Alliance for OpenUSD proposes them.
+        /// </summary>
+        internal const uint TEXERE_YARNS_FORMAT_LINEAR_USDA = 3;
 
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1267,20 +1279,21 @@ namespace Texere
         ///  memory. `run` may be null. An existing file of that name is replaced only once the new one is
         ///  complete.
         ///
-        ///  Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
-        ///  cancelled.
+        ///  Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
+        ///  large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_write(texere_plan* plan, texere_run* run, byte* path, System.UIntPtr path_length);
 
         /// <summary>
         ///  Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-        ///  bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
-        ///  TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
-        ///  first argument.
+        ///  bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+        ///  name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
+        ///  `user` as its first argument.
         ///
-        ///  Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
-        ///  than 0. The bytes that came before then are not a complete file.
+        ///  Fails with TEXERE_UNSUPPORTED if the mesh is too large for the format, and with TEXERE_CANCELLED
+        ///  if `run` was cancelled, or if the callback returned a number other than 0. The bytes that came
+        ///  before then are not a complete file.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_plan_write_to", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_plan_write_to(texere_plan* plan, texere_run* run, uint format, texere_plan_write_to_callback_delegate callback, void* user);
@@ -1325,8 +1338,8 @@ namespace Texere
 
         /// <summary>
         ///  Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-        ///  writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
-        ///  the calling thread, with `user` as its first argument.
+        ///  writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
+        ///  The callback runs on the calling thread, with `user` as its first argument.
         ///
         ///  Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
         ///  TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then

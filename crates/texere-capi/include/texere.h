@@ -269,6 +269,12 @@
 // the bytes of the `.obj` file alone, which names `materials.mtl`.
 #define TEXERE_FORMAT_OBJ 3
 
+// glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
+// extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
+// largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
+// made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+#define TEXERE_FORMAT_PACKED_GLB 4
+
 // texere's own form of yarns, `.yarns`.
 #define TEXERE_YARNS_FORMAT_YARNS 0
 
@@ -277,6 +283,10 @@
 
 // The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
 #define TEXERE_YARNS_FORMAT_USDA 2
+
+// The text form of Universal Scene Description with straight lines between control points, for
+// simulators. It has thicknesses and masses as the Alliance for OpenUSD proposes them.
+#define TEXERE_YARNS_FORMAT_LINEAR_USDA 3
 
 // How a call ended.
 typedef enum texere_status {
@@ -2042,20 +2052,21 @@ enum texere_status texere_design_woven(const struct texere_woven *woven,
 // memory. `run` may be null. An existing file of that name is replaced only once the new one is
 // complete.
 //
-// Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
-// cancelled.
+// Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
+// large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
 enum texere_status texere_plan_write(const struct texere_plan *plan,
                                      const struct texere_run *run,
                                      const char *path,
                                      size_t path_length);
 
 // Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-// bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
-// TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
-// first argument.
+// bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+// name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
+// `user` as its first argument.
 //
-// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
-// than 0. The bytes that came before then are not a complete file.
+// Fails with TEXERE_UNSUPPORTED if the mesh is too large for the format, and with TEXERE_CANCELLED
+// if `run` was cancelled, or if the callback returned a number other than 0. The bytes that came
+// before then are not a complete file.
 enum texere_status texere_plan_write_to(const struct texere_plan *plan,
                                         const struct texere_run *run,
                                         uint32_t format,
@@ -2098,8 +2109,8 @@ enum texere_status texere_yarns_write(const struct texere_yarns *yarns,
                                       size_t path_length);
 
 // Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-// writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
-// the calling thread, with `user` as its first argument.
+// writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
+// The callback runs on the calling thread, with `user` as its first argument.
 //
 // Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
 // TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then

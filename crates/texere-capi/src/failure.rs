@@ -168,7 +168,12 @@ fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
     }
     if let Some(error) = error.downcast_ref::<WriteError>() {
         return match error {
-            WriteError::Feature { .. } | WriteError::Unheld { .. } => Some(TEXERE_UNSUPPORTED),
+            WriteError::Feature { .. }
+            | WriteError::Unheld { .. }
+            | WriteError::GlbTooLarge { .. }
+            | WriteError::TooLongToPack { .. }
+            | WriteError::TooManyVertices { .. }
+            | WriteError::TooManyFacets { .. } => Some(TEXERE_UNSUPPORTED),
             WriteError::Pipeline(error) => status_of(error),
             WriteError::Io { .. } | WriteError::Writer { .. } => Some(TEXERE_IO),
             _ => None,

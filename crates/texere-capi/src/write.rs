@@ -26,6 +26,11 @@ pub const TEXERE_FORMAT_STL: u32 = 2;
 /// OBJ, `.obj`. Its materials are in a file beside it whose name ends in `.mtl`. A callback gets
 /// the bytes of the `.obj` file alone, which names `materials.mtl`.
 pub const TEXERE_FORMAT_OBJ: u32 = 3;
+/// glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
+/// extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
+/// largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
+/// made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+pub const TEXERE_FORMAT_PACKED_GLB: u32 = 4;
 
 /// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
 /// 100 MB a second takes a chunk and its triangles in 50 ms.
@@ -43,8 +48,8 @@ impl Planned {
 /// memory. `run` may be null. An existing file of that name is replaced only once the new one is
 /// complete.
 ///
-/// Fails with TEXERE_IO if the file can't be written, and with TEXERE_CANCELLED if `run` was
-/// cancelled.
+/// Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
+/// large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_write(
     plan: *const texere_plan,
@@ -62,12 +67,13 @@ pub unsafe extern "C" fn texere_plan_write(
 }
 
 /// Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-/// bytes that `texere_plan_write` writes. `format` is a constant whose name begins with
-/// TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with `user` as its
-/// first argument.
+/// bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+/// name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
+/// `user` as its first argument.
 ///
-/// Fails with TEXERE_CANCELLED if `run` was cancelled, or if the callback returned a number other
-/// than 0. The bytes that came before then are not a complete file.
+/// Fails with TEXERE_UNSUPPORTED if the mesh is too large for the format, and with TEXERE_CANCELLED
+/// if `run` was cancelled, or if the callback returned a number other than 0. The bytes that came
+/// before then are not a complete file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_plan_write_to(
     plan: *const texere_plan,
@@ -79,7 +85,8 @@ pub unsafe extern "C" fn texere_plan_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let format = choice("format", format, &[Format::Glb, Format::Ply, Format::Stl, Format::Obj])?;
+        let formats = [Format::Glb, Format::Ply, Format::Stl, Format::Obj, Format::PackedGlb];
+        let format = choice("format", format, &formats)?;
         let (plan, run) = (get(plan)?, get_any(run)?);
         texere::write::run_to(plan.writing(run)?, plan.yarns.materials(), format, file)?;
         Ok(())

@@ -209,10 +209,13 @@ pub const TEXERE_YARNS_FORMAT_YARNS: u32 = 0;
 pub const TEXERE_YARNS_FORMAT_BCC: u32 = 1;
 /// The text form of Universal Scene Description, `.usda`: curves with diameters and colours.
 pub const TEXERE_YARNS_FORMAT_USDA: u32 = 2;
+/// The text form of Universal Scene Description with straight lines between control points, for
+/// simulators. It has thicknesses and masses as the Alliance for OpenUSD proposes them.
+pub const TEXERE_YARNS_FORMAT_LINEAR_USDA: u32 = 3;
 
 /// Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-/// writes. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on
-/// the calling thread, with `user` as its first argument.
+/// writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
+/// The callback runs on the calling thread, with `user` as its first argument.
 ///
 /// Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
 /// TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then
@@ -227,7 +230,7 @@ pub unsafe extern "C" fn texere_yarns_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let formats = [None, Some(CurveFormat::Bcc), Some(CurveFormat::Usda)];
+        let formats = [None, Some(CurveFormat::Bcc), Some(CurveFormat::Usda), Some(CurveFormat::LinearUsda)];
         let curves = choice("format", format, &formats)?;
         let yarns = get(yarns)?;
         match curves {

@@ -126,6 +126,11 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         let read = texere_yarns_read_memory(text, length, file.as_ptr(), file.len() - 1, &mut none);
         assert_eq!(read, TEXERE_DESIGN);
         assert!(none.is_null() && message().contains(name), "{}", message());
+        let linear: Callback<'_> = Box::new(move |callback, user| {
+            texere_yarns_write_to(yarns, TEXERE_YARNS_FORMAT_LINEAR_USDA, callback, user)
+        });
+        let linear = String::from_utf8(written(&linear)).unwrap();
+        assert!(linear.contains("token type = \"linear\"") && linear.contains("physics:thicknesses"));
         let knitted = texere_design_write_to(knit, TEXERE_DESIGN_FORMAT_WIF, Some(refuse), null_mut());
         assert_eq!(knitted, TEXERE_UNSUPPORTED, "{}", message());
     }

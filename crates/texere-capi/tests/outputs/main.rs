@@ -13,7 +13,7 @@ use std::slice::from_raw_parts;
 use plans::{Plan, VERTEX, bytes, devices, message, ok, sized, subjects, whole};
 use texere::mesh::{Limits, Topology};
 use texere::write::Format;
-use texere::{Backend, Mesh, Pipeline, Settings, Yarns};
+use texere::{Backend, Mesh, Pipeline, Settings, WriteError, Yarns};
 use texere_c::texere_status::*;
 use texere_c::*;
 
@@ -216,19 +216,31 @@ fn a_file_for_a_callback_has_the_bytes_of_the_file() {
             (TEXERE_FORMAT_GLB, Format::Glb),
             (TEXERE_FORMAT_STL, Format::Stl),
             (TEXERE_FORMAT_OBJ, Format::Obj),
+            (TEXERE_FORMAT_PACKED_GLB, Format::PackedGlb),
         ];
         // A file's writer is the same for all devices, and text takes long: the others write one
         // format.
         let count = if backend.info().name == "cpu" { formats.len() } else { 1 };
         for (number, format) in formats.into_iter().take(count) {
+            // Their text takes minutes. A file's chunks are so small that other cloths have several.
+            if format == Format::Obj && name.starts_with("several chunks") {
+                continue;
+            }
             let mut own = std::io::Cursor::new(Vec::new());
-            texere::write::stream_to(Pipeline::new(yarns).settings(*settings), backend, format, &mut own)
-                .unwrap();
+            let pipeline = Pipeline::new(yarns).settings(*settings);
+            let rust = texere::write::stream_to(pipeline, backend, format, &mut own);
             let mut file = Vec::<u8>::new();
             // SAFETY: the callback takes this pointer.
-            ok(unsafe {
+            let status = unsafe {
                 texere_plan_write_to(plan.handle, null(), number, Some(store), from_mut(&mut file).cast())
-            });
+            };
+            // The yarns of several chunks are too long to be packed.
+            if matches!(rust, Err(WriteError::TooLongToPack { .. })) {
+                assert_eq!(status, TEXERE_UNSUPPORTED);
+                continue;
+            }
+            rust.unwrap();
+            ok(status);
             assert!(own.into_inner() == file, "{name}: another {format:?}");
         }
     });

@@ -55,7 +55,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 1, &mut null_mut()));
     case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 0, null_mut()));
     handles!(cases, own, texere_yarns, |it| texere_yarns_write_to(it, 0, Some(take_bytes), null_mut()));
-    case!(cases, texere_yarns_write_to(own.yarns, 3, Some(take_bytes), null_mut()));
+    case!(cases, texere_yarns_write_to(own.yarns, 4, Some(take_bytes), null_mut()));
     case!(cases, texere_yarns_write_to(own.yarns, 0, None, null_mut()));
     handles!(cases, own, texere_yarns, |yarns| texere_yarns_counts(yarns, &mut sized()));
     handles!(cases, own, texere_yarns, |yarns| texere_yarns_points(yarns, null_mut(), 0, null_mut(), 0));

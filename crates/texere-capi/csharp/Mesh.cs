@@ -213,6 +213,22 @@ namespace Texere
             return new Yarns(made);
         }
 
+        /// <summary>Reads curves that another program wrote: .bcc, .obj or .usda.</summary>
+        /// <param name="path">The file.</param>
+        /// <param name="unitMm">The length of the file's unit, mm; 0 if the file says it.</param>
+        /// <param name="diameterMm">The diameter of all yarns, mm; 0 if the file says widths.</param>
+        public static Yarns ReadCurves(string path, float unitMm = 0, float diameterMm = 0)
+        {
+            texere_yarns* made;
+            var bytes = Call.Bytes(path);
+            fixed (byte* text = bytes)
+            {
+                Call.Check(Native.texere_yarns_read_curves(
+                    text, (UIntPtr)bytes.Length, unitMm, diameterMm, &made));
+            }
+            return new Yarns(made);
+        }
+
         /// <summary>Writes the yarns to a file: .yarns, which keeps every bit of them, .bcc or .usda.</summary>
         public void Write(string path) =>
             Files.Write(path, (text, length) => Native.texere_yarns_write(Own, text, length), this);

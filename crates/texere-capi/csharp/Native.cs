@@ -1325,6 +1325,19 @@ namespace Texere
         internal static extern texere_status texere_yarns_read_memory(byte* name, System.UIntPtr name_length, byte* data, System.UIntPtr size, texere_yarns** @out);
 
         /// <summary>
+        ///  Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
+        ///  polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
+        ///  `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
+        ///  With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
+        ///  and `diameter_mm` has to be given.
+        ///
+        ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
+        ///  lacks the diameter.
+        /// </summary>
+        [DllImport(__DllName, EntryPoint = "texere_yarns_read_curves", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern texere_status texere_yarns_read_curves(byte* path, System.UIntPtr path_length, float unit_mm, float diameter_mm, texere_yarns** @out);
+
+        /// <summary>
         ///  Writes yarns to a file. `.yarns` is texere's own form, which keeps every bit of them;
         ///  `texere_yarns_read` reads it. `.bcc` and `.usda` are centrelines for other programs: `.bcc`
         ///  holds control points alone, `.usda` also diameters and colours. An existing file of that name is

@@ -2097,6 +2097,20 @@ enum texere_status texere_yarns_read_memory(const char *name,
                                             size_t size,
                                             struct texere_yarns **out);
 
+// Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
+// polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
+// `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
+// With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
+// and `diameter_mm` has to be given.
+//
+// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
+// lacks the diameter.
+enum texere_status texere_yarns_read_curves(const char *path,
+                                            size_t path_length,
+                                            float unit_mm,
+                                            float diameter_mm,
+                                            struct texere_yarns **out);
+
 // Writes yarns to a file. `.yarns` is texere's own form, which keeps every bit of them;
 // `texere_yarns_read` reads it. `.bcc` and `.usda` are centrelines for other programs: `.bcc`
 // holds control points alone, `.usda` also diameters and colours. An existing file of that name is

@@ -305,6 +305,14 @@ public:
     Yarns(std::string_view name, view<const std::uint8_t> data)
         : Owner(texere_yarns_read_memory, name.data(), name.size(), data.data(), data.size()) {}
 
+    // Reads curves that another program wrote: `.bcc`, `.obj` or `.usda`. Lengths of 0 are as the file
+    // says.
+    static Yarns curves(std::string_view path, float unit_mm = 0, float diameter_mm = 0) {
+        texere_yarns *yarns = nullptr;
+        check(texere_yarns_read_curves(path.data(), path.size(), unit_mm, diameter_mm, &yarns));
+        return Yarns(yarns);
+    }
+
     // Writes a `.yarns`, `.bcc` or `.usda` file.
     void write(std::string_view path) const { check(texere_yarns_write(get(), path.data(), path.size())); }
     // Hands the bytes of the file to `take(offset, bytes)`. `format` is a constant whose name begins

@@ -3,6 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::path::Path;
 
+use texere::read::CurveScale;
 use texere::write::CurveFormat;
 use texere::yarn::Halves;
 use texere::{ControlPoint, Yarn, Yarns};
@@ -173,6 +174,33 @@ pub unsafe extern "C" fn texere_yarns_read_memory(
             clear(out)?;
             let (name, bytes) = (text("name", name, name_length)?, slice("data", data, size)?);
             give(out, texere::read::yarns_from(name, bytes)?.yarns)
+        }
+    })
+}
+
+/// Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
+/// polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
+/// `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
+/// With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
+/// and `diameter_mm` has to be given.
+///
+/// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
+/// lacks the diameter.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn texere_yarns_read_curves(
+    path: *const c_char,
+    path_length: usize,
+    unit_mm: f32,
+    diameter_mm: f32,
+    out: *mut *mut texere_yarns,
+) -> texere_status {
+    guard(|| {
+        let given = |length: f32| (length != 0.0).then_some(length);
+        let scale = CurveScale { unit_mm: given(unit_mm), diameter_mm: given(diameter_mm) };
+        // SAFETY: the caller vouches for `out` and `path`.
+        unsafe {
+            clear(out)?;
+            give(out, texere::read::curves(text("path", path, path_length)?, scale)?)
         }
     })
 }

@@ -112,6 +112,22 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         assert_eq!(refused, TEXERE_CANCELLED, "{name}: {}", message());
         assert!(message().contains("the callback answered 7"), "{name}: {}", message());
     }
+    // Curves that were written come back.
+    let points = |yarns| {
+        let mut counts: texere_yarn_counts = sized();
+        // SAFETY: the variable lives as long as the call.
+        done(unsafe { texere_yarns_counts(yarns, &mut counts) });
+        counts.points
+    };
+    for (name, diameter) in [("yarns.bcc", 0.2), ("yarns.usda", 0.0)] {
+        let place = folder.path().join(name);
+        let text = place.to_str().unwrap();
+        // SAFETY: the text lives as long as the call.
+        let again = made(|out| unsafe {
+            texere_yarns_read_curves(text.as_ptr().cast(), text.len(), 0.0, diameter, out)
+        });
+        assert_eq!(points(again), points(yarns), "{name}");
+    }
     // Yarns that are read from the bytes of a `.yarns` file are written as the same bytes again.
     // Bytes that lack the last one are refused.
     let (name, file) = ("memory.yarns", &seen[5]);

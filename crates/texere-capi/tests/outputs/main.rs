@@ -222,7 +222,8 @@ fn a_file_for_a_callback_has_the_bytes_of_the_file() {
         // format.
         let count = if backend.info().name == "cpu" { formats.len() } else { 1 };
         for (number, format) in formats.into_iter().take(count) {
-            // Their text takes minutes. A file's chunks are so small that other cloths have several.
+            // Their text takes minutes. A file's chunks are so small that other cloths have
+            // several.
             if format == Format::Obj && name.starts_with("several chunks") {
                 continue;
             }

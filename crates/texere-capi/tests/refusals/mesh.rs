@@ -45,6 +45,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     // A null text with a length, and a text that is not UTF-8.
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_yarns_read(text, length, &mut null_mut()));
+        case!(cases, texere_yarns_read_curves(text, length, 1.0, 1.0, &mut null_mut()));
         case!(cases, texere_yarns_write(own.yarns, text, length));
         case!(cases, texere_yarns_read_memory(text, length, null(), 0, &mut null_mut()));
         case!(cases, texere_plan_write(own.plan, null(), text, length));
@@ -54,6 +55,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_yarns_write(own.yarns, toml, toml_length));
     case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 1, &mut null_mut()));
     case!(cases, texere_yarns_read_memory(toml, toml_length, null(), 0, null_mut()));
+    case!(cases, texere_yarns_read_curves(toml, toml_length, 1.0, 1.0, null_mut()));
     handles!(cases, own, texere_yarns, |it| texere_yarns_write_to(it, 0, Some(take_bytes), null_mut()));
     case!(cases, texere_yarns_write_to(own.yarns, 4, Some(take_bytes), null_mut()));
     case!(cases, texere_yarns_write_to(own.yarns, 0, None, null_mut()));

@@ -37,7 +37,7 @@ pub(super) fn operations() -> Vec<Operation> {
             texere_design_draft_to(design, back, callback, user)
         };
         texere_yarns_write_to, 2, |caller| {
-            let (yarns, format, (callback, user)) = (caller.handle(), caller.random.choice(3), taking(caller));
+            let (yarns, format, (callback, user)) = (caller.handle(), caller.random.choice(4), taking(caller));
             texere_yarns_write_to(yarns, format, callback, user)
         };
         texere_yarns_read_memory, 2, |caller| {

@@ -61,7 +61,8 @@ pub(crate) const DESIGNS: [&str; 4] = [
 ];
 
 /// Names of files in the test's folder. Other operations write files of the later kinds.
-const FILES: [&str; 8] = ["a.toml", "a.wif", "a.yarns", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
+const FILES: [&str; 9] =
+    ["a.toml", "a.wif", "a.yarns", "a.usda", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
 
 /// Reads a design from memory.
 pub(crate) unsafe fn read(text: &str, out: *mut *mut texere_design) -> texere_status {
@@ -286,6 +287,12 @@ fn yarns() -> Vec<Operation> {
         texere_yarns_read, 2, |caller| {
             let path = caller.path(&FILES);
             caller.out(|out| texere_yarns_read(path.pointer(), path.length(), out))
+        };
+        texere_yarns_read_curves, 2, |caller| {
+            let (path, lengths) = (caller.path(&FILES), [0, 1].map(|_| caller.random.pick(&[0.0, 1.0, -1.0, 0.2])));
+            caller.out(|out| {
+                texere_yarns_read_curves(path.pointer(), path.length(), lengths[0], lengths[1], out)
+            })
         };
         texere_yarns_write, 1, |caller| {
             let (yarns, path) = (caller.handle(), caller.path(&FILES));

@@ -10,6 +10,8 @@ use exr::prelude::{
 };
 use png::BitDepth;
 
+use texere_core::Material;
+
 use crate::{BakeError, Maps};
 
 /// A map: its name, which is part of the names of its files, and its values.
@@ -83,7 +85,7 @@ impl<'a> Map<'a> {
         };
         let all: Vec<[u16; 3]> = match &self.values {
             Values::Color(colors) => {
-                colors.iter().map(|color| color.map(|linear| level(encoded(linear)))).collect()
+                colors.iter().map(|color| color.map(|linear| level(Material::encoded(linear)))).collect()
             }
             Values::Directions(directions) => {
                 directions.iter().map(|direction| direction.map(|axis| level(axis * 0.5 + 0.5))).collect()
@@ -146,9 +148,4 @@ impl<'a> Map<'a> {
         let written = Image::from_layer(layer).write().to_file(path);
         written.map_err(|source| BakeError::Image { path: path.to_owned(), source: source.into() })
     }
-}
-
-/// The sRGB value of a linear one (IEC 61966-2-1).
-pub(crate) fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }

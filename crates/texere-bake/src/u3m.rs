@@ -1,9 +1,9 @@
 //! U3M 1.1 documents, which fashion programs open.
 
 use serde_json::{Value, json};
+use texere_core::Material;
 
 use crate::Maps;
-use crate::images::encoded;
 
 /// One side of a material, for its document.
 pub(crate) struct Visual<'a> {
@@ -123,7 +123,7 @@ impl Visual<'_> {
             let (sum, share) = shown.fold((0.0, 0.0), |(sum, share), (color, alpha)| {
                 (sum + f64::from(color[channel] * alpha), share + f64::from(*alpha))
             });
-            encoded(if share > 0.0 { (sum / share) as f32 } else { 0.0 })
+            Material::encoded(if share > 0.0 { (sum / share) as f32 } else { 0.0 })
         });
         json!({ "r": mean[0].clamp(0.0, 1.0), "g": mean[1].clamp(0.0, 1.0), "b": mean[2].clamp(0.0, 1.0) })
     }

@@ -46,4 +46,18 @@ impl Material {
             }
         })
     }
+
+    /// The sRGB value of a linear one, both in \[0, 1\]: the inverse of [`Material::linear_rgb`],
+    /// channel by channel.
+    ///
+    /// ```
+    /// use texere_core::Material;
+    /// let madder = Material { srgb: [160, 44, 41], ..Material::default() };
+    /// let again = madder.linear_rgb().map(|linear| (255.0 * Material::encoded(linear)).round());
+    /// assert_eq!(again, [160.0, 44.0, 41.0]);
+    /// ```
+    #[must_use]
+    pub fn encoded(linear: f32) -> f32 {
+        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+    }
 }

@@ -8,7 +8,7 @@ use texere::write::{CurveFormat, Format};
 
 /// Whether a path names a file of saved yarns.
 pub(crate) fn is_yarns(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yarns"))
+    ends_in(path, &["yarns"])
 }
 
 /// Whether a path names a file of curves.

@@ -418,6 +418,16 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// The refusal of the word `value`, whose first byte is number `at` of a text file's `bytes`.
+    pub(super) fn word(file: &Path, bytes: &[u8], at: usize, value: &str, expected: String) -> Self {
+        let before = &bytes[..at];
+        let line_at = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        // Columns count characters, not bytes.
+        let column = String::from_utf8_lossy(&before[line_at..]).chars().count() + 1;
+        Self::Word { file: file.into(), line, column, value: shown(value), expected }
+    }
+
     /// The error at the root: the error of the file that a design names, or else this one.
     ///
     /// ```

@@ -12,11 +12,10 @@ use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
 
 use super::ReadError;
 use super::curve_scale::CurveScale;
-use super::error::shown;
 
 /// Reads the polylines of an OBJ file. Each yarn is round.
 pub(super) fn polylines(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
-    let mut words = Words { bytes, at: 0, line: 1, line_at: 0 };
+    let mut words = Words { bytes, at: 0 };
     let mut lines = Polylines { offsets: vec![0], ..Polylines::default() };
     loop {
         match words.next().map(|word| word.text) {
@@ -138,10 +137,6 @@ struct Word<'a> {
     text: &'a [u8],
     /// The place of its first byte in the file.
     at: usize,
-    /// The number of its line, counted from 1.
-    line: usize,
-    /// The place of the line's first byte in the file.
-    line_at: usize,
 }
 
 impl Word<'_> {
@@ -157,10 +152,6 @@ struct Words<'a> {
     bytes: &'a [u8],
     /// The place of the next byte in the file.
     at: usize,
-    /// The number of its line, counted from 1.
-    line: usize,
-    /// The place of the line's first byte in the file.
-    line_at: usize,
 }
 
 impl<'a> Words<'a> {
@@ -170,7 +161,6 @@ impl<'a> Words<'a> {
             let left = &self.bytes[self.at..];
             if let Some(end) = joint(left) {
                 self.at += end;
-                self.begin_line();
             } else {
                 match left.first()? {
                     b'\n' => return None,
@@ -186,7 +176,7 @@ impl<'a> Words<'a> {
         };
         let length = (0..left.len()).find(ends).unwrap_or(left.len());
         self.at += length;
-        Some(Word { text: &left[..length], at, line: self.line, line_at: self.line_at })
+        Some(Word { text: &left[..length], at })
     }
 
     /// Passes over the rest of the statement. Returns whether there is another line.
@@ -196,23 +186,13 @@ impl<'a> Words<'a> {
             return false;
         }
         self.at += 1;
-        self.begin_line();
         true
-    }
-
-    const fn begin_line(&mut self) {
-        self.line += 1;
-        self.line_at = self.at;
     }
 
     /// The refusal of a word, or of a statement that ends too early.
     fn refused(&self, file: &Path, word: Option<Word<'_>>, expected: &str) -> ReadError {
-        let end = Word { text: &[], at: self.at, line: self.line, line_at: self.line_at };
-        let Word { text, at, line, line_at } = word.unwrap_or(end);
-        // Columns count characters, not bytes.
-        let column = String::from_utf8_lossy(&self.bytes[line_at..at]).chars().count() + 1;
-        let value = shown(&String::from_utf8_lossy(text));
-        ReadError::Word { file: file.into(), line, column, value, expected: expected.into() }
+        let Word { text, at } = word.unwrap_or(Word { text: &[], at: self.at });
+        ReadError::word(file, self.bytes, at, &String::from_utf8_lossy(text), expected.into())
     }
 }
 

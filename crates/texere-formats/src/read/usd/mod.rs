@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DMat4, DVec3};
-use texere_core::backend::room_for;
+use texere_core::backend::{room, room_for};
 use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
 
 use curve::{Curve, Form, Wrap};
@@ -135,17 +135,22 @@ fn millimetres(stage: &Stage<'_>, world: DMat4, scale: CurveScale) -> Option<DMa
 /// The yarns of a stage.
 #[derive(Debug, Default)]
 struct Cloth {
-    curves: Vec<Curve>,
-    /// The material of each curve.
-    materials: Vec<u32>,
-    /// The number of each curve's yarn.
-    numbers: Vec<u32>,
+    threads: Vec<Thread>,
     palette: Vec<Material>,
 }
 
+/// A curve that becomes a yarn.
+#[derive(Debug)]
+struct Thread {
+    curve: Curve,
+    material: u32,
+    /// The number of the yarn, if the file has one.
+    yarn: Option<u32>,
+}
+
 impl Cloth {
-    fn yarns(self, file: &Path) -> Result<Yarns, ReadError> {
-        if self.curves.is_empty() {
+    fn yarns(mut self, file: &Path) -> Result<Yarns, ReadError> {
+        if self.threads.is_empty() {
             let needed_for = "each yarn is a curve";
             return Err(ReadError::MissingKey {
                 file: file.into(),
@@ -153,23 +158,22 @@ impl Cloth {
                 needed_for,
             });
         }
-        let tension = tension(&self.curves);
-        let order = order(&self.numbers, self.curves.len())?;
+        let tension = tension(self.threads.iter().map(|thread| &thread.curve));
+        if self.is_numbered()? {
+            self.threads.sort_by_key(|thread| thread.yarn);
+        }
         let (mut yarns, mut offsets, mut points) = (Vec::new(), vec![0], Vec::<ControlPoint>::new());
-        room_for(&mut yarns, self.curves.len(), "yarns")?;
-        room_for(&mut offsets, self.curves.len(), "yarns")?;
-        let mut curves: Vec<_> = self.curves.into_iter().map(Some).collect();
-        for number in order {
-            let (curve, material) = (curves[number].take(), self.materials[number]);
-            let Some(curve) = curve else { continue };
-            let is_closed = curve.is_closed;
+        room_for(&mut yarns, self.threads.len(), "yarns")?;
+        room_for(&mut offsets, self.threads.len(), "yarns")?;
+        for Thread { curve, material, .. } in self.threads {
+            let closed = curve.is_closed;
             let places = control_points(curve, tension.is_some())?;
             room_for(&mut points, places.len(), "control points")?;
             points.extend(places.iter().map(|place| {
                 let [x, y, z, radius] = place.map(|value| value as f32);
                 ControlPoint::new(x, y, z, radius)
             }));
-            yarns.push(Yarn { closed: is_closed, material, ..Yarn::default() });
+            yarns.push(Yarn { closed, material, ..Yarn::default() });
             offsets.push(points.len() as u64);
         }
         let unsound = |source| ReadError::Yarns { file: file.into(), source };
@@ -177,21 +181,15 @@ impl Cloth {
         let yarns = Yarns::new(layout, self.palette, points).map_err(unsound)?;
         yarns.with_tension(tension.unwrap_or(0.0)).map_err(unsound)
     }
-}
 
-/// The order of the curves: by the numbers of their yarns if each of `count` curves has one of its
-/// own, and else as in the file.
-fn order(numbers: &[u32], count: usize) -> Result<Vec<usize>, ReadError> {
-    let mut order = Vec::new();
-    room_for(&mut order, count, "yarns")?;
-    order.extend(0..count);
-    if numbers.len() == count {
-        order.sort_by_key(|&curve| numbers[curve]);
-        if order.windows(2).any(|pair| numbers[pair[0]] == numbers[pair[1]]) {
-            order.sort_unstable();
-        }
+    /// Whether each thread has a number of its own.
+    fn is_numbered(&self) -> Result<bool, ReadError> {
+        let mut numbers = room("yarns", self.threads.len())?;
+        numbers.extend(self.threads.iter().map(|thread| thread.yarn));
+        numbers.sort_unstable();
+        // Threads without a number come first.
+        Ok(numbers.first().is_some_and(Option::is_some) && numbers.windows(2).all(|pair| pair[0] < pair[1]))
     }
-    Ok(order)
 }
 
 /// The curves of a prim that is there.
@@ -249,12 +247,8 @@ impl Reader<'_> {
         }
         let widths = self.widths(&varying)?;
         let materials = self.materials(&mut cloth.palette)?;
-        room_for(&mut cloth.curves, counts.len(), "curves")?;
-        room_for(&mut cloth.materials, counts.len(), "curves")?;
-        if self.curves.yarns.len() == counts.len() {
-            room_for(&mut cloth.numbers, counts.len(), "curves")?;
-            cloth.numbers.extend(&self.curves.yarns);
-        }
+        room_for(&mut cloth.threads, counts.len(), "curves")?;
+        let are_numbered = self.curves.yarns.len() == counts.len();
         let (mut vertex, mut value) = (0, 0);
         for (number, (&count, &values)) in counts.iter().zip(&varying).enumerate() {
             let own = vertex..vertex + count as usize;
@@ -270,8 +264,11 @@ impl Reader<'_> {
                 }
                 _ => None,
             };
-            cloth.curves.push(Curve::new(form, wrap, vertices.collect(), radii.as_deref()));
-            cloth.materials.push(materials[if materials.len() == 1 { 0 } else { number }]);
+            cloth.threads.push(Thread {
+                curve: Curve::new(form, wrap, vertices.collect(), radii.as_deref()),
+                material: materials[if materials.len() == 1 { 0 } else { number }],
+                yarn: are_numbered.then(|| self.curves.yarns[number]),
+            });
             vertex += count as usize;
             value += values;
         }
@@ -329,7 +326,10 @@ impl Reader<'_> {
         };
         let mut known = BTreeMap::new();
         let number = |color: Option<[f32; 3]>| {
-            let srgb = color.map_or_else(|| Material::default().srgb, |color| color.map(encoded));
+            let srgb = color.map_or_else(
+                || Material::default().srgb,
+                |color| color.map(|linear| (Material::encoded(linear) * 255.0).round() as u8),
+            );
             *known.entry(srgb).or_insert_with(|| {
                 palette.push(Material { name: self.prim.name.clone(), srgb, ..Material::default() });
                 palette.len() as u32 - 1
@@ -357,10 +357,4 @@ impl Widths {
             Self::Varying(_) => 0.0,
         }
     }
-}
-
-/// A channel of linear light as sRGB, 8 bits (IEC 61966-2-1).
-fn encoded(linear: f32) -> u8 {
-    let encoded = if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round().clamp(0.0, 255.0) as u8
 }

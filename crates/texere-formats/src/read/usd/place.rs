@@ -37,23 +37,23 @@ impl<'a> Place<'a> {
             self.operations.entry(name).or_insert(None);
             return tokens.pass_over_value();
         }
-        let three = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::double).map(DVec3::from_array);
+        let three = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::number).map(DVec3::from_array);
         let kind = name.text.split(':').nth(1).unwrap_or_default();
         let operation = match kind {
             "translate" => DMat4::from_translation(three(tokens)?),
-            "translateX" => DMat4::from_translation(tokens.double()? * DVec3::X),
-            "translateY" => DMat4::from_translation(tokens.double()? * DVec3::Y),
-            "translateZ" => DMat4::from_translation(tokens.double()? * DVec3::Z),
+            "translateX" => DMat4::from_translation(tokens.number::<f64>()? * DVec3::X),
+            "translateY" => DMat4::from_translation(tokens.number::<f64>()? * DVec3::Y),
+            "translateZ" => DMat4::from_translation(tokens.number::<f64>()? * DVec3::Z),
             "scale" => DMat4::from_scale(three(tokens)?),
-            "scaleX" => DMat4::from_scale(DVec3::ONE.with_x(tokens.double()?)),
-            "scaleY" => DMat4::from_scale(DVec3::ONE.with_y(tokens.double()?)),
-            "scaleZ" => DMat4::from_scale(DVec3::ONE.with_z(tokens.double()?)),
+            "scaleX" => DMat4::from_scale(DVec3::ONE.with_x(tokens.number()?)),
+            "scaleY" => DMat4::from_scale(DVec3::ONE.with_y(tokens.number()?)),
+            "scaleZ" => DMat4::from_scale(DVec3::ONE.with_z(tokens.number()?)),
             "transform" => {
-                let rows: [[f64; 4]; 4] = tokens.tuple(|tokens| tokens.tuple(Tokens::double))?;
+                let rows: [[f64; 4]; 4] = tokens.tuple(|tokens| tokens.tuple(Tokens::number))?;
                 DMat4::from_cols_array_2d(&rows)
             }
             "orient" => {
-                let [w, x, y, z] = tokens.tuple(Tokens::double)?;
+                let [w, x, y, z] = tokens.tuple(Tokens::number)?;
                 let turn = DQuat::from_xyzw(x, y, z, w);
                 DMat4::from_quat(if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY })
             }
@@ -63,7 +63,7 @@ impl<'a> Place<'a> {
                     return tokens.pass_over_value();
                 };
                 let degrees =
-                    if axes.len() == 1 { vec![tokens.double()?] } else { about(axes, three(tokens)?) };
+                    if axes.len() == 1 { vec![tokens.number()?] } else { about(axes, three(tokens)?) };
                 turned(axes, &degrees)
             }
         };

@@ -24,19 +24,19 @@ const THICKER: f64 = 0.02;
 
 /// The one tension with which splines through the ends of all pieces have the pieces' shape, if
 /// there is one. It is 0 if the curves have no pieces.
-pub(super) fn tension(curves: &[Curve]) -> Option<f32> {
+pub(super) fn tension<'a>(curves: impl Iterator<Item = &'a Curve> + Clone) -> Option<f32> {
     let (mut along, mut square) = (0.0, 0.0);
-    handles(curves, |_, [offset, step], _| {
+    handles(curves.clone(), |_, [offset, step], _| {
         along += dot(offset, step);
         square += dot(step, step);
     });
     let is_through = |curve: &Curve| matches!(curve.shape, Shape::Through(_));
     // The handle of a spline of tension 0 is a sixth of the way between its neighbours.
-    let share = if curves.iter().any(is_through) || square == 0.0 { 1.0 / 6.0 } else { along / square };
+    let share = if curves.clone().any(is_through) || square == 0.0 { 1.0 / 6.0 } else { along / square };
     // A closed yarn has three control points or more.
     let is_short =
         |curve: &Curve| curve.is_closed && matches!(&curve.shape, Shape::Pieces(pieces) if pieces.len() < 3);
-    let mut fits = share > 0.0 && share < 1.0 / 6.0 + 1e-3 && !curves.iter().any(is_short);
+    let mut fits = share > 0.0 && share < 1.0 / 6.0 + 1e-3 && !curves.clone().any(is_short);
     handles(curves, |curve, [offset, step], radius| {
         let off: Place = std::array::from_fn(|axis| offset[axis] - share * step[axis]);
         fits &= dot(off, off).sqrt() <= BESIDE * radius;
@@ -48,7 +48,7 @@ pub(super) fn tension(curves: &[Curve]) -> Option<f32> {
 /// Calls `each` for both handles at each end of a Bézier piece: from the end to the handle, and
 /// between the neighbours of the end, with the radius there. At the two ends of an open curve the
 /// neighbour beyond it is as far away as the one within.
-fn handles(curves: &[Curve], mut each: impl FnMut(&Curve, [Place; 2], f64)) {
+fn handles<'a>(curves: impl Iterator<Item = &'a Curve>, mut each: impl FnMut(&Curve, [Place; 2], f64)) {
     let from_to = |from: Place, to: Place| std::array::from_fn(|axis| to[axis] - from[axis]);
     for curve in curves {
         let Shape::Pieces(pieces) = &curve.shape else { continue };

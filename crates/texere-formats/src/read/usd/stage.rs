@@ -96,7 +96,7 @@ pub(super) fn stage<'a>(tokens: &mut Tokens<'a>) -> Result<Stage<'a>, ReadError>
     if tokens.took(b'(')? {
         said(tokens, |name, tokens| {
             match name {
-                "metersPerUnit" => stage.unit_m = tokens.double()?,
+                "metersPerUnit" => stage.unit_m = tokens.number()?,
                 "upAxis" => {
                     let axis = tokens.text()?;
                     if !["X", "Y", "Z"].contains(&axis.text) {
@@ -266,7 +266,7 @@ fn value<'a>(tokens: &mut Tokens<'a>, name: Token<'a>, prim: &mut Prim<'a>) -> R
         return Ok(());
     }
     let Some(curves) = &mut prim.curves else { return tokens.pass_over_value() };
-    let triple = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::float);
+    let triple = |tokens: &mut Tokens<'a>| tokens.tuple(Tokens::number);
     match name.text {
         "points" => curves.points = tokens.list("points of curves", triple)?,
         "points.timeSamples" => {
@@ -274,9 +274,9 @@ fn value<'a>(tokens: &mut Tokens<'a>, name: Token<'a>, prim: &mut Prim<'a>) -> R
             tokens.pass_over_value()?;
         }
         "curveVertexCounts" => curves.counts = tokens.list("curves", Tokens::count)?,
-        "widths" => curves.widths.values = tokens.list("widths of curves", Tokens::float)?,
+        "widths" => curves.widths.values = tokens.list("widths of curves", Tokens::number)?,
         "primvars:widths" => {
-            curves.primvar_widths.values = tokens.list("widths of curves", Tokens::float)?;
+            curves.primvar_widths.values = tokens.list("widths of curves", Tokens::number)?;
         }
         "primvars:displayColor:indices" => curves.color_indices = tokens.list("curves", Tokens::count)?,
         "primvars:displayColor" => curves.colors.values = tokens.list("colours of curves", triple)?,

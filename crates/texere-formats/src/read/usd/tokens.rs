@@ -5,7 +5,6 @@
 use std::path::Path;
 
 use crate::read::ReadError;
-use crate::read::error::shown;
 
 /// A kind of token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,15 +158,7 @@ impl<'a> Tokens<'a> {
 
     /// The refusal of a token.
     pub(super) fn refused(&self, token: Token<'_>, expected: impl Into<String>) -> ReadError {
-        let before = &self.text[..token.at];
-        let line_at = before.rfind('\n').map_or(0, |end| end + 1);
-        ReadError::Word {
-            file: self.file.into(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_at..].chars().count() + 1,
-            value: shown(token.text),
-            expected: expected.into(),
-        }
+        ReadError::word(self.file, self.text.as_bytes(), token.at, token.text, expected.into())
     }
 }
 

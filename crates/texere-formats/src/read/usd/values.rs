@@ -1,5 +1,7 @@
 //! Values in USD's text form.
 
+use std::str::FromStr;
+
 use texere_core::backend::room_for;
 
 use super::tokens::{Kind, Token, Tokens};
@@ -35,16 +37,9 @@ impl<'a> Tokens<'a> {
     }
 
     /// A finite number.
-    pub(super) fn float(&mut self) -> Result<f32, ReadError> {
+    pub(super) fn number<T: FromStr + Copy + Into<f64>>(&mut self) -> Result<T, ReadError> {
         let token = self.next()?;
-        let number = token.text.parse().ok().filter(|number: &f32| number.is_finite());
-        number.filter(|_| token.kind == Kind::Word).ok_or_else(|| self.refused(token, "a number"))
-    }
-
-    /// A finite number of eight bytes.
-    pub(super) fn double(&mut self) -> Result<f64, ReadError> {
-        let token = self.next()?;
-        let number = token.text.parse().ok().filter(|number: &f64| number.is_finite());
+        let number = token.text.parse().ok().filter(|&number: &T| number.into().is_finite());
         number.filter(|_| token.kind == Kind::Word).ok_or_else(|| self.refused(token, "a number"))
     }
 

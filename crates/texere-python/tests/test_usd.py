@@ -38,18 +38,20 @@ def test_a_stage_holds_the_yarns(tmp_path, design):
         assert curves.GetTypeAttr().Get() == UsdGeom.Tokens.cubic
         assert curves.GetBasisAttr().Get() == UsdGeom.Tokens.catmullRom
         assert curves.GetWrapAttr().Get() == UsdGeom.Tokens.nonperiodic
-        assert curves.GetWidthsInterpolation() == UsdGeom.Tokens.varying
+        assert curves.GetWidthsInterpolation() == UsdGeom.Tokens.vertex
         assert len(curves.GetDisplayColorAttr().Get()) == 1
         counts = numpy.array(curves.GetCurveVertexCountsAttr().Get())
         points = numpy.split(numpy.array(curves.GetPointsAttr().Get()), numpy.cumsum(counts)[:-1])
-        # One width at each end of an interval. The first and the last vertex lie beyond the curve.
-        widths = numpy.split(numpy.array(curves.GetWidthsAttr().Get()), numpy.cumsum(counts - 2)[:-1])
+        # The first and the last point are there twice.
+        assert all(numpy.array_equal(own[0], own[1]) and numpy.array_equal(own[-1], own[-2]) for own in points)
+        widths = numpy.split(numpy.array(curves.GetWidthsAttr().Get()), numpy.cumsum(counts)[:-1])
         low, high = numpy.array(curves.GetExtentAttr().Get())
         for yarn, own, width in zip(curves.GetPrim().GetAttribute("primvars:yarn").Get(), points, widths):
             assert numpy.array_equal(own[1:-1], ours[yarn])
             # A flat yarn is drawn as a round one of the same area.
             area = halves[yarn].astype(numpy.float64).prod(axis=1)
-            assert numpy.allclose(width, 2.0 * numpy.sqrt(area), rtol=1e-6)
+            assert numpy.allclose(width[1:-1], 2.0 * numpy.sqrt(area), rtol=1e-6)
+            assert width[0] == width[1] and width[-1] == width[-2]
             within = width.min() / 2.0 - 1e-6
             assert (own[1:-1] >= low + within).all() and (own[1:-1] <= high - within).all()
             seen.append(yarn)

@@ -1,10 +1,14 @@
-//! The text form of Universal Scene Description. The yarns of each material are one prim of curves.
+//! The text form of Universal Scene Description. The open yarns of each material are one prim of
+//! curves, and its closed yarns another one.
 //!
-//! A spline of tension 0 is written as Catmull-Rom curves. The points beyond the ends of such a
-//! curve, which shape its first and its last interval, are written out, and the wrap is
-//! `nonperiodic`. With the wrap `pinned` a renderer would make up these points, but usdview and
-//! Blender draw such curves wrong. A spline of any other tension is written as Bézier curves of the
-//! same shape. A closed yarn is written as a curve that ends where it begins.
+//! A spline of tension 0 is written as a Catmull-Rom curve. A nonperiodic one has a vertex beyond
+//! each of its ends, and is drawn between them. Blender passes over the wrap, and draws the curve
+//! through all vertices. The first and the last point are therefore written twice, which both take
+//! for the same curve. Its first and its last interval are shaped by these points, and run up to
+//! 0.08 of their length beside the yarn's, mostly along it. A closed yarn has the wrap `periodic`.
+//!
+//! A spline of any other tension is written as Bézier curves of the same shape. A closed one ends
+//! where it begins.
 //!
 //! For simulators that read straight lines alone, any spline can be written as the lines between
 //! its control points. These linear curves have the attributes of deformable bodies: they collide,
@@ -51,33 +55,38 @@ pub(super) fn write<W: Write>(
         env!("CARGO_PKG_VERSION")
     ))?;
     for (number, material) in yarns.materials().iter().enumerate() {
-        let own = Own { yarns, basis, material: number as u32 };
-        if own.curves().next().is_some() {
-            stage.curves(&own, number, material)?;
+        for closed in [false, true] {
+            let own = Own { yarns, basis, material: number as u32, closed };
+            if own.curves().next().is_some() {
+                stage.curves(&own, material)?;
+            }
         }
     }
     stage.line("}")?;
     Ok(stage.target)
 }
 
-/// The yarns of one material.
+/// The open yarns of one material, or its closed ones.
 struct Own<'a> {
     yarns: &'a Yarns,
     basis: Basis,
     material: u32,
+    closed: bool,
 }
 
 impl<'a> Own<'a> {
     fn curves(&self) -> impl Iterator<Item = Curve<'a>> {
-        let (yarns, basis, material) = (self.yarns, self.basis, self.material);
+        let (yarns, basis, material, closed) = (self.yarns, self.basis, self.material, self.closed);
         let all = yarns.layout().yarns().iter().enumerate();
-        all.filter(move |(_, yarn)| yarn.material == material).map(move |(number, yarn)| Curve {
-            number,
-            points: yarns.yarn_points(number).unwrap_or_default(),
-            closed: yarn.closed,
-            basis,
-            tension: yarns.tension(),
-        })
+        all.filter(move |(_, yarn)| yarn.material == material && yarn.closed == closed).map(
+            move |(number, yarn)| Curve {
+                number,
+                points: yarns.yarn_points(number).unwrap_or_default(),
+                closed: yarn.closed,
+                basis,
+                tension: yarns.tension(),
+            },
+        )
     }
 }
 
@@ -99,7 +108,7 @@ impl<'a> Curve<'a> {
     /// Number of the curve's vertices in the file.
     fn count(self) -> usize {
         match self.basis {
-            Basis::CatmullRom => self.intervals() + 3,
+            Basis::CatmullRom => self.points.len() + if self.closed { 0 } else { 2 },
             Basis::Bezier => 3 * self.intervals() + 1,
             Basis::Linear => self.intervals() + 1,
         }
@@ -110,16 +119,17 @@ impl<'a> Curve<'a> {
         let window = move |interval| {
             neighbours(self.points, self.closed, interval).map(|point| [point.x, point.y, point.z])
         };
-        let [before, start, end, _] = window(0);
-        let first = match self.basis {
-            Basis::CatmullRom => [Some(before), Some(start), Some(end)],
-            Basis::Bezier | Basis::Linear => [Some(start), None, None],
-        };
+        let [_, start, _, _] = window(0);
+        let is_open = self.basis == Basis::CatmullRom && !self.closed;
+        let first = [Some(start), Some(start).filter(|_| is_open), None];
         let third = tangent_factor::<f32>(self.tension) / 3.0;
         let others = (0..self.intervals()).map(move |interval| {
             let [before, start, end, after] = window(interval);
+            let is_last = interval + 1 == self.intervals();
             match self.basis {
-                Basis::CatmullRom => return [Some(after), None, None],
+                // A periodic curve has its first vertex once.
+                Basis::CatmullRom if self.closed => return [Some(end).filter(|_| !is_last), None, None],
+                Basis::CatmullRom => return [Some(end), Some(end).filter(|_| is_last), None],
                 Basis::Linear => return [Some(end), None, None],
                 Basis::Bezier => {}
             }
@@ -140,12 +150,19 @@ impl<'a> Curve<'a> {
         f64::from(tex) * 1e-9 * length
     }
 
-    /// The diameter at each control point, mm. It is the diameter of a circle with the area of the
-    /// ellipse that is as wide and as high as the yarn. A closed curve has its first diameter again
-    /// at its end.
+    /// The diameters in the file, mm: one for each vertex, or for Bézier curves for each end of a
+    /// piece. A diameter is that of a circle with the area of the ellipse that is as wide and as
+    /// high as the yarn.
     fn diameters(self) -> impl Iterator<Item = f32> + 'a {
-        let again = self.points.first().filter(|_| self.closed);
-        self.points.iter().chain(again).map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
+        let is_spline = self.basis == Basis::CatmullRom;
+        let before = self.points.first().filter(|_| is_spline && !self.closed);
+        let after = match (is_spline, self.closed) {
+            (true, false) => self.points.last(),
+            (false, true) => self.points.first(),
+            _ => None,
+        };
+        let all = before.into_iter().chain(self.points).chain(after);
+        all.map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
     }
 }
 
@@ -194,14 +211,16 @@ impl<W: Write> Stage<W> {
         self.text(format_args!("{text}\n"))
     }
 
-    /// Writes the yarns of a material as one prim.
-    fn curves(&mut self, own: &Own<'_>, number: usize, material: &Material) -> Result<(), WriteError> {
-        let (kind, basis) = match own.basis {
-            Basis::CatmullRom => ("cubic", "catmullRom"),
-            Basis::Bezier => ("cubic", "bezier"),
+    /// Writes yarns as one prim.
+    fn curves(&mut self, own: &Own<'_>, material: &Material) -> Result<(), WriteError> {
+        let (kind, basis, interpolation) = match own.basis {
+            // Blender takes a diameter for each vertex.
+            Basis::CatmullRom => ("cubic", "catmullRom", "vertex"),
+            Basis::Bezier => ("cubic", "bezier", "varying"),
             // Readers of linear curves pass over the basis. `bezier` is the default of the schema.
-            Basis::Linear => ("linear", "bezier"),
+            Basis::Linear => ("linear", "bezier", "varying"),
         };
+        let wrap = if own.basis == Basis::CatmullRom && own.closed { "periodic" } else { "nonperiodic" };
         let schemas = match own.basis {
             Basis::Linear => {
                 "        prepend apiSchemas = [\"PhysicsCurvesDeformableSimAPI\", \"PhysicsCollisionAPI\"]\n"
@@ -210,8 +229,9 @@ impl<W: Write> Stage<W> {
         };
         let [low, high] = extent(own);
         self.line(format_args!(
-            "    def BasisCurves \"yarns_{}\" (\n{}        displayName = {}\n    )\n    {{",
-            number + 1,
+            "    def BasisCurves \"{}yarns_{}\" (\n{}        displayName = {}\n    )\n    {{",
+            if own.closed { "closed_" } else { "" },
+            own.material + 1,
             schemas,
             quoted(&material.name)
         ))?;
@@ -223,8 +243,8 @@ impl<W: Write> Stage<W> {
         self.list("color3f[] primvars:displayColor", [triple(material.linear_rgb())].iter(), "")?;
         self.list("int[] primvars:yarn", own.curves().map(|curve| curve.number), "uniform")?;
         self.line(format_args!("        uniform token type = \"{kind}\""))?;
-        self.list("float[] widths", own.curves().flat_map(Curve::diameters), "varying")?;
-        self.line("        uniform token wrap = \"nonperiodic\"")?;
+        self.list("float[] widths", own.curves().flat_map(Curve::diameters), interpolation)?;
+        self.line(format_args!("        uniform token wrap = \"{wrap}\""))?;
         if own.basis == Basis::Linear {
             self.physics(own, material)?;
         }

@@ -24,8 +24,8 @@ pub(crate) struct Design {
     pub(crate) design: Arc<texere::Design>,
 }
 
-/// Reads a design: a WIF draft (``.wif``), texere's own design file (``.toml``) or a program of a
-/// knitting machine (``.k``, ``.knitout``).
+/// Reads a design: a draft of WIF (``.wif``), Fiberworks (``.dtx``) or WeavePoint (``.wpo``),
+/// texere's own design file (``.toml``) or a program of a knitting machine (``.k``, ``.knitout``).
 ///
 /// >>> texere.read("designs/locknit.toml").kind
 /// 'warp-knitted'

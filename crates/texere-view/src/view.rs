@@ -10,7 +10,7 @@ use crate::ViewError;
 /// What a window shows.
 #[derive(Debug, Clone)]
 pub struct View {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine.
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine.
     pub design: PathBuf,
     /// The device that draws, as [`texere::picture::open_renderer`] takes it, and on which yarns
     /// settle.

@@ -11,6 +11,9 @@ use crate::{ControlPoint, Pipeline, ReadError, WriteError, Yarn, Yarns, read};
 fn a_design_that_this_build_cannot_read_is_said_to_need_its_feature() {
     for (file, feature, is_there) in [
         ("twill.wif", "wif", cfg!(feature = "wif")),
+        ("twill.wifw", "wif", cfg!(feature = "wif")),
+        ("twill.dtx", "wif", cfg!(feature = "wif")),
+        ("twill.wpo", "wif", cfg!(feature = "wif")),
         ("twill.toml", "toml", cfg!(feature = "toml")),
         ("jersey.k", "knitout", cfg!(feature = "knitout")),
         ("jersey.KNITOUT", "knitout", cfg!(feature = "knitout")),

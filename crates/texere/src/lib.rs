@@ -102,7 +102,7 @@
 //! | feature | adds |
 //! |---|---|
 //! | `toml` | texere's own design files; brings `wif` |
-//! | `wif` | WIF drafts |
+//! | `wif` | drafts: WIF, Fiberworks PCW and WeavePoint |
 //! | `knitout` | programs of knitting machines, alone and in design files |
 //! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
 //! | `opencl`, `wgpu` | GPU backends |

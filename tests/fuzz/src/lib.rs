@@ -31,7 +31,7 @@ pub enum Reader {
     Notation,
     /// Point paper, in an otherwise valid design.
     Image,
-    /// Design files with an image or a WIF draft. All files are mutated.
+    /// Design files with an image or a draft. All files are mutated.
     Paper,
     /// Knitout files.
     Knitout,

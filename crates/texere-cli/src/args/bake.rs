@@ -6,7 +6,7 @@ use super::settling::RestArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct BakeArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The folder to make: maps as PNG and EXR, and the material as U3M, U3MA and MaterialX
     #[arg(short, long, value_name = "FOLDER")]

@@ -69,7 +69,7 @@ pub(crate) struct DevicesArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InspectArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
@@ -90,7 +90,7 @@ pub(crate) struct InspectArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// How much nearer than touching two yarns may come before they count as piercing, as a share
     /// of the distance at which they touch. Between control points that are placed to touch, yarns
@@ -106,8 +106,8 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
-    /// A .toml design, a .wif draft, a .k program of a knitting machine, a .yarns file of saved
-    /// cloth, or a .bcc or .obj file of curves that another program wrote
+    /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
+    /// file of saved cloth, or a .bcc or .obj file of curves that another program wrote
     pub(crate) design: PathBuf,
     /// The file to write: .glb, .ply, .stl or .obj for a mesh; .bcc or .usda for the yarns'
     /// centrelines, as curves for other programs; .yarns saves the cloth at rest, which need not
@@ -137,7 +137,7 @@ pub(crate) struct MeshArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct DraftArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file. It shows threading, tie-up, treadling and drawdown of a
     /// woven design, or the point paper if there is no shaft draft. It shows stitch chart and
@@ -156,7 +156,7 @@ pub(crate) struct DraftArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConvertArgs {
-    /// A woven design: a .toml design or a .wif draft
+    /// A woven design: a .toml design or a draft (.wif, .dtx, .wpo)
     pub(crate) design: PathBuf,
     /// The file to write: .wif, which other weaving programs read, or .toml, which holds everything
     /// but the shaft draft

@@ -8,8 +8,8 @@ use super::settling::RestArgs;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ViewArgs {
-    /// A .toml design, a .wif draft, or a .k program of a knitting machine. When the file changes,
-    /// so does the cloth in the window
+    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine. When the
+    /// file changes, so does the cloth in the window
     pub(crate) design: PathBuf,
     /// The first width and height of the window, in pixels, or in points if the screen is scaled
     #[arg(long, value_name = "WxH", default_value = "1280x800", value_parser = size)]

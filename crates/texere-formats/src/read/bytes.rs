@@ -53,6 +53,15 @@ impl<'a> Bytes<'a> {
         Ok(*bytes)
     }
 
+    /// The next `count` bytes.
+    pub(super) fn slice(&mut self, field: &'static str, count: usize) -> Result<&'a [u8], ReadError> {
+        let Some((bytes, left)) = self.left.split_at_checked(count) else {
+            return Err(self.cut_short(field, count));
+        };
+        self.left = left;
+        Ok(bytes)
+    }
+
     fn cut_short(&self, field: &'static str, bytes: usize) -> ReadError {
         let value = format_args!("cut off after {} bytes", self.left.len());
         self.refused(self.at(), field, value, format_args!("{bytes} bytes"))
@@ -82,10 +91,7 @@ impl<'a> Bytes<'a> {
     /// A UTF-8 text of `bytes` bytes.
     pub(super) fn text(&mut self, field: &'static str, bytes: usize) -> Result<String, ReadError> {
         let at = self.at();
-        let Some((text, left)) = self.left.split_at_checked(bytes) else {
-            return Err(self.cut_short(field, bytes));
-        };
-        self.left = left;
+        let text = self.slice(field, bytes)?;
         let Ok(text) = str::from_utf8(text) else {
             let start = &text[..text.len().min(64)];
             return Err(self.refused(at, field, start.escape_ascii(), "UTF-8"));

@@ -23,6 +23,7 @@ const SIZE: &[&str] = &[
     "warp_knit.repeat",
     "warp_knit.wales",
     "[WARP] threads",
+    "@@Info %%ends",
 ];
 
 /// Keys that say how threads interlace.
@@ -37,6 +38,8 @@ const STRUCTURE: &[&str] = &[
     "weave.wif",
     "[TIEUP]",
     "[LIFTPLAN]",
+    "@@Tieup",
+    "@@Liftplan",
 ];
 
 /// Keys that say how close wales lie.
@@ -190,13 +193,14 @@ impl Keys {
     }
 
     /// The place of the key that spaces the threads of `set`, which is `warp` or `weft`. In a draft
-    /// without a spacing it is the place of the number of threads.
+    /// without a spacing, and in any of Fiberworks, it is the place of the number of threads.
     fn spacings(&self, set: &str) -> Option<FilePlace> {
         let own = ["spacing_mm", "per_cm", "per_inch"];
         let own = own.iter().find_map(|key| self.line(&format!("{set}.{key}")));
         let section = set.to_uppercase();
         own.or_else(|| self.line(&format!("[{section}] spacing")))
             .or_else(|| self.line(&format!("[{section}] threads")))
+            .or_else(|| self.line(if set == "warp" { "@@Info %%ends" } else { "@@Info %%picks" }))
     }
 
     fn spacing(&self, thread: Origin) -> Option<FilePlace> {

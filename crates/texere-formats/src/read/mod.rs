@@ -7,6 +7,10 @@ mod curves;
 mod design;
 #[cfg(feature = "toml")]
 mod design_file;
+#[cfg(feature = "wif")]
+mod draft;
+#[cfg(feature = "wif")]
+mod dtx;
 mod error;
 mod fault_place;
 mod file;
@@ -28,6 +32,8 @@ mod threads;
 mod usd;
 #[cfg(feature = "wif")]
 mod wif;
+#[cfg(feature = "wif")]
+mod wpo;
 mod yarns;
 
 use std::cell::{Cell, RefCell};
@@ -52,13 +58,13 @@ use crate::yarns_file::ENDING;
 #[cfg(feature = "toml")]
 pub(crate) use design_file::limits;
 #[cfg(feature = "wif")]
-pub(crate) use wif::{
-    FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM, PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM,
-};
+pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
+#[cfg(feature = "wif")]
+pub(crate) use wif::{PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM};
 
-/// Reads the design in `path`: a WIF draft (`.wif`, feature `wif`), a program of a knitting machine
-/// (knitout, `.k` or `.knitout`, feature `knitout`), or texere's own design file (`.toml`, feature
-/// `toml`).
+/// Reads the design in `path`: a draft of a weaving program (WIF, `.wif` or `.wifw`; Fiberworks PCW,
+/// `.dtx`; WeavePoint, `.wpo`; feature `wif`), a program of a knitting machine (knitout, `.k` or
+/// `.knitout`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
 ///
 /// **Errors**: [`ReadError`]. It names file, line, field, value and limit as far as they apply. A
 /// kind of file that this build was made without is [`ReadError::Feature`].
@@ -76,7 +82,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, ReadError> {
 /// database. The ending of `name` says what kind of design `bytes` are. Errors call the design by
 /// `name`.
 ///
-/// `files` gives the bytes of a file that the design names: a picture, a WIF draft or a knitting
+/// `files` gives the bytes of a file that the design names: a picture, a draft or a knitting
 /// program. Its argument is the path of that file beside `name`. For example, if `looms/cloth.toml`
 /// names `twill.wif`, the argument is `looms/twill.wif`. No file on a disk is opened.
 ///
@@ -116,12 +122,16 @@ pub fn read_from(
 /// The design in `path`, which `files` opens. The path's ending decides which reader reads the
 /// file.
 fn by_ending(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    #[cfg(feature = "wif")]
+    if let Some(kind) = draft::DraftKind::of(path) {
+        return kind.design(path, files);
+    }
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
-        #[cfg(feature = "wif")]
-        Some("wif") => wif::design(path, files),
         #[cfg(not(feature = "wif"))]
-        Some("wif") => Err(ReadError::Feature { file: path.into(), what: "WIF drafts", feature: "wif" }),
+        Some("wif" | "wifw" | "dtx" | "wpo") => {
+            Err(ReadError::Feature { file: path.into(), what: "drafts of looms", feature: "wif" })
+        }
         #[cfg(feature = "toml")]
         Some("toml") => design_file::read(path, files),
         #[cfg(not(feature = "toml"))]
@@ -133,6 +143,9 @@ fn by_ending(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
             Err(ReadError::Feature { file: path.into(), what: "knitout files", feature: "knitout" })
         }
         Some(ENDING) => Err(ReadError::WithoutDesign { file: path.into() }),
-        _ => Err(ReadError::UnknownKind { file: path.into(), known: ".wif, .toml, .k, .knitout" }),
+        _ => {
+            let known = ".dtx, .wpo, .wifw, .wif, .toml, .k, .knitout";
+            Err(ReadError::UnknownKind { file: path.into(), known })
+        }
     }
 }

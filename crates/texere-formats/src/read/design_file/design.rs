@@ -10,9 +10,10 @@ use super::schema::{self, DesignFile};
 use super::source::Source;
 use super::threads::YarnTable;
 use super::{knit, limits, value, warp_knit, weave};
+use crate::read::draft::DraftKind;
 use crate::read::file::{Files, bytes_of, file_name};
 use crate::read::threads::only_used;
-use crate::read::{Design, ReadError, wif};
+use crate::read::{Design, ReadError};
 
 /// Reads the design file in `path`.
 pub(crate) fn read(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
@@ -113,11 +114,10 @@ fn from_wif(
         });
     }
     let path = source.beside(wif);
-    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif")) {
-        return Err(source.bad("weave.wif", wif, "the path of a .wif file"));
-    }
-    let draft =
-        wif::read(&path, source.files).map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
+    let kind = DraftKind::of(&path)
+        .ok_or_else(|| source.bad("weave.wif", wif, &format!("the path of a {} file", DraftKind::ENDINGS)))?;
+    let draft = kind.read(&path, source.files);
+    let draft = draft.map_err(|error| error.named(source.place("weave.wif", wif.span())))?;
     let woven = &draft.woven;
     let drawdown = woven.drawdown().clone();
     // The draft's materials and sections come first, so that the numbers in the draft's threads

@@ -40,7 +40,7 @@
 //! | `notation` | a weave by notation or name, as [`Weave`] reads it; `ends` and `picks` say how large the cloth is |
 //! | `drawdown` | a row for each pick, the last one on top: `1` where the warp is up, `0` where it is not; repeated over `ends` and `picks` |
 //! | `image` | point paper, each pixel a crossing: a PNG, BMP or TIFF file beside the design |
-//! | `wif` | a draft, in a WIF file beside the design |
+//! | `wif` | a draft beside the design: a WIF file, or one of Fiberworks or WeavePoint |
 //! | `ends`, `picks` | the size of the cloth. A notation needs them. With a drawdown they are the drawdown's own size if left out. With an image they are left out, or are the image's size times `repeat`. With `wif` they are refused |
 //! | `rows` | which pick the image's top row is: `"last-pick-first"`, as weavers draw, or `"first-pick-first"` |
 //! | `repeat` | `[2, 3]`: the image twice across the ends and three times along the picks; `[1, 1]` if not given |

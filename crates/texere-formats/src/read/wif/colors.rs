@@ -7,6 +7,7 @@ use texere_core::{Material, counted};
 use super::ini::{Entry, Ini};
 use super::numbers::{bad, list, place};
 use crate::read::ReadError;
+use crate::read::draft::color;
 
 /// The colours of a draft by number, and their materials.
 #[derive(Debug)]
@@ -15,9 +16,6 @@ pub(super) struct Palette {
     /// For each number of a colour, the number of its material.
     by_number: BTreeMap<u32, u32>,
 }
-
-/// The number of the material of threads without a colour.
-pub(super) const NO_COLOR: u32 = 0;
 
 impl Palette {
     pub(super) fn read(ini: &Ini<'_>, warnings: &mut Vec<String>) -> Result<Self, ReadError> {
@@ -43,11 +41,7 @@ impl Palette {
                 scaled(channel, low, high)
             });
             palette.by_number.insert(number, palette.materials.len() as u32);
-            palette.materials.push(Material {
-                name: format!("colour {number}"),
-                srgb,
-                ..Material::default()
-            });
+            palette.materials.push(color(number, srgb));
         }
         if clamped > 0 {
             let (values, lie) = (counted(clamped, "value"), if clamped == 1 { "lies" } else { "lie" });
@@ -78,7 +72,7 @@ impl Palette {
             let srgb = [red, green, blue].map(|channel| scaled(channel, 0, 255));
             let material = self.materials.len() as u32;
             self.by_number.insert(number, material);
-            self.materials.push(Material { name: format!("colour {number}"), srgb, ..Material::default() });
+            self.materials.push(color(number, srgb));
             return Ok(Some(material));
         }
         if self.by_number.is_empty() {

@@ -13,19 +13,15 @@
 //! has as many as the file uses.
 //!
 //! A thickness that leaves threads no room to cross is read as the width at which a program draws
-//! them, unless texere has written the draft: see [`threads::roomy`].
+//! them, unless texere has written the draft: see [`DraftThreads`](super::draft::DraftThreads).
 
 mod colors;
 mod ini;
-mod limits;
 mod numbers;
 mod program;
 mod threads;
 mod wif_draft;
 
-pub(crate) use limits::{FILE_MAX, LENGTH_MM};
 pub(crate) use program::PROGRAM;
 pub(crate) use threads::UNITS_MM;
-pub(super) use wif_draft::design;
-#[cfg(feature = "toml")]
-pub(super) use wif_draft::read;
+pub(super) use wif_draft::draft;

@@ -3,67 +3,39 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use texere_core::Section;
-use texere_fabric::{Draft, Drawdown, LOOM_MAX, Relief, Shedding, Structure, Woven, WovenDesign};
+use texere_fabric::{LOOM_MAX, Shedding};
 
 use super::colors::Palette;
-use super::ini::{self, Ini};
-use super::limits::{FILE_MAX, THREADS_MAX};
+use super::ini::Ini;
 use super::numbers::{self, integer, lists};
 use super::program::is_ours;
 use super::threads;
-use crate::read::file::{Files, bytes_of, file_name};
+use crate::read::ReadError;
+use crate::read::draft::{LoomDraft, Plans, THREADS_MAX, decode};
+use crate::read::file::file_name;
 use crate::read::keys::Keys;
-use crate::read::threads::only_used;
-use crate::read::{Design, ReadError};
 
-/// What has been read from a WIF file.
-#[derive(Debug)]
-pub(crate) struct WifDraft {
-    pub(crate) name: String,
-    pub(crate) woven: Woven,
-    pub(crate) draft: Draft,
-    pub(crate) warnings: Vec<String>,
-    pub(crate) keys: Keys,
-}
-
-/// The design of a draft alone. A draft has no finish, so its yarns do not settle.
-pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
-    let wif = read(path, files)?;
-    let woven = WovenDesign::new(wif.woven, Some(wif.draft), Relief::Report);
-    let woven = wif.keys.placed(woven.map_err(|source| ReadError::fabric(path, source)))?;
-    Ok(Design::new(wif.name, Structure::Woven(woven), wif.warnings).left().keyed(wif.keys))
-}
-
-pub(crate) fn read(path: &Path, files: &Files<'_>) -> Result<WifDraft, ReadError> {
-    let bytes = bytes_of(files, path, FILE_MAX)?;
-    let text = ini::decode(&bytes);
+/// Reads the bytes of a WIF file.
+pub(in crate::read) fn draft(path: &Path, bytes: &[u8]) -> Result<LoomDraft, ReadError> {
+    let text = decode(bytes);
     let ini = Ini::parse(path, &text);
     let keys = ini.keys();
-    let wif = keys.placed(drafted(&ini))?;
-    Ok(WifDraft { keys, ..wif })
+    let draft = keys.placed(drafted(&ini))?;
+    Ok(LoomDraft { keys, ..draft })
 }
 
-fn drafted(ini: &Ini<'_>) -> Result<WifDraft, ReadError> {
+fn drafted(ini: &Ini<'_>) -> Result<LoomDraft, ReadError> {
     let path = ini.file;
     let mut warnings = Vec::new();
 
     let ends = thread_count(ini, "warp", "WARP")?;
     let picks = thread_count(ini, "weft", "WEFT")?;
-    let (draft, drawdown) = draft(ini, ends, picks, &mut warnings)?;
-    let mut palette = Palette::read(ini, &mut warnings)?;
-    let (mut threads, stated) = threads::read(ini, [ends, picks], &mut palette, &mut warnings)?;
-    let [warp, weft] = &mut threads;
-    let (materials, sections) = only_used([warp, weft], &palette.into_materials(), &[Section::Circle]);
-    let woven = if stated {
-        let [warp, weft] = threads;
-        Woven::new(drawdown, warp, weft, materials, sections)
-    } else {
-        threads::roomy(drawdown, threads, materials, sections, &mut warnings)
-    };
-    let woven = woven.map_err(|source| ReadError::fabric(path, source))?;
+    let (draft, drawdown) = plans(ini, ends, picks, &mut warnings)?.draft(path, &mut warnings)?;
+    let palette = Palette::read(ini, &mut warnings)?;
+    let threads = threads::read(ini, [ends, picks], palette, &mut warnings)?;
+    let woven = threads.woven(path, drawdown, &mut warnings)?;
     let name = ini.get("text", "title").map_or_else(|| file_name(path), |entry| entry.value.into());
-    Ok(WifDraft { name, woven, draft, warnings, keys: Keys::default() })
+    Ok(LoomDraft { name, woven, draft, warnings, keys: Keys::default() })
 }
 
 fn thread_count(ini: &Ini<'_>, section: &str, name: &str) -> Result<u32, ReadError> {
@@ -78,15 +50,9 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
     ReadError::MissingSection { file: ini.file.into(), section, needed_for }
 }
 
-/// The draft and its drawdown. A draft has a threading. It also has a tie-up and a treadling, or
-/// else a lift plan. If a file has all three, and the lift plan weaves another cloth, the tie-up
-/// and the treadling are used, and a warning says so.
-fn draft(
-    ini: &Ini<'_>,
-    ends: u32,
-    picks: u32,
-    warnings: &mut Vec<String>,
-) -> Result<(Draft, Drawdown), ReadError> {
+/// The plans of the file: a threading, and a tie-up with a treadling, or else a lift plan. If a
+/// file has all three, the tie-up and the treadling are used.
+fn plans(ini: &Ini<'_>, ends: u32, picks: u32, warnings: &mut Vec<String>) -> Result<Plans, ReadError> {
     if !ini.has("threading") {
         return Err(missing(ini, "THREADING", "it says which shaft each end is on"));
     }
@@ -116,17 +82,7 @@ fn draft(
             return Err(missing(ini, "LIFTPLAN", "without TIEUP and TREADLING it says what each pick lifts"));
         }
     };
-    let fabric = |source| ReadError::fabric(ini.file, source);
-    let mut draft = Draft { threading, shedding, rising_shed };
-    let drawdown = draft.drawdown().map_err(fabric)?;
-    if let Some(other) = other {
-        let stands = std::mem::replace(&mut draft.shedding, other);
-        if drawdown != draft.drawdown().map_err(fabric)? {
-            warnings.push("lift plan and treadling give different cloths; the treadling is taken".into());
-        }
-        draft.shedding = stands;
-    }
-    Ok((draft, drawdown))
+    Ok(Plans { threading, shedding, other, rising_shed })
 }
 
 /// Refuses a draft that counts shafts from 0. Such a draft shows three signs. It has ends on shaft

@@ -1,11 +1,11 @@
-//! The limits of WIF drafts. Their writer keeps them as well.
+//! The limits of drafts. The writer of WIF keeps them as well.
 
-/// The largest WIF file that is read, bytes. A lift plan of 10,000 picks by 5,000 hooks takes half
-/// as much.
+/// The largest file of a draft that is read, bytes. A lift plan of 10,000 picks by 5,000 hooks
+/// takes half as much in WIF.
 pub(crate) const FILE_MAX: u64 = 1 << 28;
 
 /// The most threads of a warp or weft.
-pub(super) const THREADS_MAX: u32 = 1_000_000;
+pub(in crate::read) const THREADS_MAX: u32 = 1_000_000;
 
 /// The least and the greatest spacing or thickness that is allowed, mm. A design file has the same
 /// limits.

@@ -17,8 +17,8 @@ const STEP: u64 = 10_000;
 /// Feeds mutated designs to texere's readers.
 #[derive(Debug, Parser)]
 struct Args {
-    /// wif, design, notation, image, paper, knitout, knit, warp-knit, yarns, curves, polylines or
-    /// stage; all of them if left out
+    /// wif, dtx, wpo, design, notation, image, paper, knitout, knit, warp-knit, yarns, curves,
+    /// polylines or stage; all of them if left out
     #[arg(long)]
     reader: Option<String>,
     /// How many inputs for each reader

@@ -14,6 +14,17 @@ pub(crate) const WIF: &[&str] = &[
      Threads=3\n[PRIVATE X Y]\n1=2\n",
 ];
 
+/// Drafts of Fiberworks: with a treadle for each pick, with several, and with a lift plan.
+pub(crate) const DTX: &[&str] = &[
+    "@@StartDTX\n%%version 1\n\n@@Description\nT\n\n@@Info\n%%shafts 4 \n%%treadles 6 \n%%ends 5   \n%%picks 4   \n\n\
+     @@Threading\n1  2  3  4  1\n\n@@Tieup\n000101\n001010\n010001\n100010\n\n@@Treadling\n 6  5  4  3\n\n@@Color Palet\n\
+     255,255,255\n255,0,0\n\n@@Warp Colors\n0  1  1\n\n@@Warp Spacing\n4  3  2  1\n\n@@EndDTX\n",
+    "@@StartDTX\n@@Imprint\nPCW 4.2.0\n@@Info\n%%shafts 2\n%%treadles 2\n%%ends 6\n%%picks 3\n@@Threading\n1 2 0\n2 1\n@@Tieup\n\
+     %%%%sinking\n01\n10\n11\n@@Treadling\n%%compound\n1,2  2  0,1\n@@Color Palette\n1,2,3\n4,5,6\n7,8,9\n@@Weft Colors\n2 0 1\n\
+     @@Weft Spacing\n8 0 1\n@@EndDTX\n",
+    "@@StartDTX\n@@Info\n%%shafts 3\n%%ends 3\n%%picks 4\n@@Threading\n3 2 1\n@@Liftplan\n101\n010\n110\n0011\n@@Notes\nn\n",
+];
+
 /// Design files whose weave is a notation.
 pub(crate) const DESIGNS: &[&str] = &[
     "name = \"Denim\"\n[weave]\nnotation = \"3/1\"\nends = 7\npicks = 5\n[yarns.indigo]\ntex = 84.0\ncolor = \"#2b3f6b\"\n\

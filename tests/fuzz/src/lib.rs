@@ -15,6 +15,7 @@ mod drive;
 mod image_bytes;
 mod text;
 mod watch;
+mod wpo_bytes;
 mod yarn_bytes;
 
 pub use drive::{Outcome, drive};
@@ -25,6 +26,10 @@ pub use watch::fuzz;
 pub enum Reader {
     /// WIF drafts.
     Wif,
+    /// Drafts of Fiberworks.
+    Dtx,
+    /// Drafts of WeavePoint.
+    Wpo,
     /// Design files with a notation.
     Design,
     /// The notation of a weave, in an otherwise valid design.
@@ -52,8 +57,10 @@ pub enum Reader {
 
 impl Reader {
     /// All readers.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Wif,
+        Self::Dtx,
+        Self::Wpo,
         Self::Design,
         Self::Notation,
         Self::Image,
@@ -72,6 +79,8 @@ impl Reader {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Wif => "wif",
+            Self::Dtx => "dtx",
+            Self::Wpo => "wpo",
             Self::Design => "design",
             Self::Notation => "notation",
             Self::Image => "image",
@@ -102,6 +111,8 @@ impl Input {
         let random = &mut random;
         let files = match reader {
             Reader::Wif => vec![("design.wif", text::mutated(corpus::WIF, random))],
+            Reader::Dtx => vec![("design.dtx", text::mutated(corpus::DTX, random))],
+            Reader::Wpo => vec![("design.wpo", wpo_bytes::mutated(random))],
             Reader::Design => vec![("design.toml", text::mutated(corpus::DESIGNS, random))],
             Reader::Notation => {
                 let notation = text::notation(random);

@@ -159,8 +159,9 @@ fn mutate(lines: &mut Vec<String>, other: &[String], random: &mut Rng) {
         // A section moves to the end. If the section occurs twice, the move changes which of the
         // two counts.
         6 if !lines.is_empty() => {
-            let start = (0..=line).rev().find(|&at| lines[at].starts_with('[')).unwrap_or(0);
-            let end = (start + 1..lines.len()).find(|&at| lines[at].starts_with('[')).unwrap_or(lines.len());
+            let start = (0..=line).rev().find(|&at| lines[at].starts_with(['[', '@'])).unwrap_or(0);
+            let end =
+                (start + 1..lines.len()).find(|&at| lines[at].starts_with(['[', '@'])).unwrap_or(lines.len());
             let section: Vec<_> = lines.drain(start..end).collect();
             lines.extend(section);
         }

@@ -34,7 +34,7 @@ pub(crate) fn mutated_curves(random: &mut Rng) -> Vec<u8> {
 }
 
 /// Changes a file in up to three places.
-fn change(bytes: &mut Vec<u8>, random: &mut Rng) {
+pub(crate) fn change(bytes: &mut Vec<u8>, random: &mut Rng) {
     for _ in 0..random.usize(0..4) {
         match random.u8(0..8) {
             0 => scrambled(bytes, random),

@@ -22,6 +22,16 @@ fn wif_drafts() {
 }
 
 #[test]
+fn fiberworks_drafts() {
+    ten_thousand(Reader::Dtx);
+}
+
+#[test]
+fn weavepoint_drafts() {
+    ten_thousand(Reader::Wpo);
+}
+
+#[test]
 fn design_files() {
     ten_thousand(Reader::Design);
 }

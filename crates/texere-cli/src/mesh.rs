@@ -16,7 +16,7 @@ use crate::{drivers, print, progress, reading, settling};
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
     if is_yarns(&args.output) || is_curves(&args.output) {
-        let packed = args.packed.then_some("--packed");
+        let packed = args.packed.then_some("--packed").or(args.compressed.then_some("--compressed"));
         if let Some(option) = args.settings.of_a_mesh().or(packed) {
             return Err(Fail::needs_mesh(option, &args.output));
         }
@@ -75,9 +75,10 @@ impl Cloth {
 /// The file to write, which replaces none of `files`.
 fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
     let output = Output::to(&args.output).sparing(files);
-    match (args.packed, args.linear) {
-        (true, _) => output.packed(),
-        (_, true) => output.linear(),
+    match (args.packed, args.compressed, args.linear) {
+        (true, ..) => output.packed(),
+        (_, true, _) => output.compressed(),
+        (.., true) => output.linear(),
         _ => output,
     }
 }

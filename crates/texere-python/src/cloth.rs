@@ -156,7 +156,8 @@ impl Cloth {
     /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
     /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
     /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
-    /// yarn's box at most.
+    /// yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about half of that,
+    /// for readers that know the extension ``EXT_meshopt_compression``.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
     /// mass, for simulators that read no other curves.
     ///
@@ -165,11 +166,20 @@ impl Cloth {
     /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
-    /// be written or packed; ValueError for one that is to be packed and linear.
-    #[pyo3(signature = (path, *, packed=false, linear=false, device="auto"))]
-    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, linear: bool, device: &str) -> PyResult<()> {
+    /// be written, packed or compressed; ValueError for one that is to be several of packed,
+    /// compressed and linear.
+    #[pyo3(signature = (path, *, packed=false, compressed=false, linear=false, device="auto"))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        packed: bool,
+        compressed: bool,
+        linear: bool,
+        device: &str,
+    ) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, packed, linear)?.sparing(self.cloth.design().files());
+        let output = mesh::output(&path, packed, compressed, linear)?.sparing(self.cloth.design().files());
         output.check().raise(py)?;
         if !yarns::is_mesh(&path)? {
             return watch::quietly(py, |_| yarns::write(yarns, output));

@@ -198,17 +198,18 @@ impl Mesh {
     /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
     /// not at all. It is made again while it is written, piece by piece. ``packed`` halves the
     /// vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
-    /// side of the yarn's box at most.
+    /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
+    /// half of that, for readers that know the extension ``EXT_meshopt_compression``.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
-    /// Raises :class:`texere.Error` for another ending, and for a file that can't be written or
-    /// packed.
-    #[pyo3(signature = (path, *, packed=false))]
-    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool) -> PyResult<()> {
-        let output = output(&path, packed, false)?;
+    /// Raises :class:`texere.Error` for another ending, and for a file that can't be written,
+    /// packed or compressed; ValueError for one that is to be packed and compressed.
+    #[pyo3(signature = (path, *, packed=false, compressed=false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, compressed: bool) -> PyResult<()> {
+        let output = output(&path, packed, compressed, false)?;
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -278,12 +279,16 @@ fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bou
 
 /// The file that a cloth, yarns or a mesh are written to.
 ///
-/// **Errors**: `ValueError` for a file that is to be both.
-pub(crate) fn output(path: &Path, packed: bool, linear: bool) -> PyResult<Output> {
-    match (packed, linear) {
-        (true, true) => Err(PyValueError::new_err("a file is packed (.glb) or linear (.usda), not both")),
-        (true, false) => Ok(Output::to(path).packed()),
-        (false, true) => Ok(Output::to(path).linear()),
-        (false, false) => Ok(Output::to(path)),
+/// **Errors**: `ValueError` for a file that is to be several of packed, compressed and linear.
+pub(crate) fn output(path: &Path, packed: bool, compressed: bool, linear: bool) -> PyResult<Output> {
+    let output = Output::to(path);
+    match (packed, compressed, linear) {
+        (false, false, false) => Ok(output),
+        (true, false, false) => Ok(output.packed()),
+        (false, true, false) => Ok(output.compressed()),
+        (false, false, true) => Ok(output.linear()),
+        _ => Err(PyValueError::new_err(
+            "a file is packed (.glb), compressed (.glb) or linear (.usda): one of them",
+        )),
     }
 }

@@ -123,9 +123,13 @@ pub(crate) struct MeshArgs {
     /// yarn's box at most
     #[arg(long)]
     pub(crate) packed: bool,
+    /// Write a .glb that is packed and compressed to about half of that, as the extension
+    /// EXT_meshopt_compression says. Programs that don't know the extension refuse the file
+    #[arg(long, conflicts_with = "packed")]
+    pub(crate) compressed: bool,
     /// Write the curves of a .usda file as straight lines between control points, with thickness
     /// and mass, for simulators that read no other curves
-    #[arg(long, conflicts_with = "packed")]
+    #[arg(long, conflicts_with_all = ["packed", "compressed"])]
     pub(crate) linear: bool,
     #[command(flatten)]
     pub(crate) curves: CurveArgs,

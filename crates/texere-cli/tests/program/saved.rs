@@ -14,7 +14,9 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
         fs::write(&design, text).unwrap();
         let said = stdout(&texere(&["mesh", &design, "--device", "cpu", "-o", &saved]));
         assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
-        for (ending, option) in [("ply", "--caps"), ("glb", "--caps"), ("glb", "--packed")] {
+        for (ending, option) in
+            [("ply", "--caps"), ("glb", "--caps"), ("glb", "--packed"), ("glb", "--compressed")]
+        {
             let [own, other] = ["own", "other"].map(|which| path(&format!("{name}-{which}.{ending}")));
             for (input, output) in [(&design, &own), (&saved, &other)] {
                 stdout(&texere(&["mesh", input, "--device", "cpu", option, "-o", output]));
@@ -97,6 +99,8 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
         (&["mesh", &saved, "-o", &other, "--packed"], 2, "--packed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
+        (&["mesh", &saved, "-o", &other, "--compressed"], 2, "--compressed needs a mesh"),
+        (&["mesh", &design, "-o", &ply, "--compressed"], 2, "does not end in .glb"),
         (&["mesh", &design, "-o", &ply, "--linear"], 2, "does not end in .usda"),
         (&["mesh", &saved, "-o", &path("cloth.bcc"), "--linear"], 2, "does not end in .usda"),
         (&["mesh", &design, "-o", &other, "--sides", "9"], 2, "--sides needs a mesh"),

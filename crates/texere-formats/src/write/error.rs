@@ -60,7 +60,8 @@ pub enum WriteError {
     #[error("{}", if matches!(.0, PipelineError::Cancelled) { "writing was stopped" } else { "the mesh could not be made" })]
     Pipeline(#[from] PipelineError),
     /// GLB counts its bytes with 32 bits. PLY has no such limit. Fewer sides or subdivisions make a
-    /// smaller file.
+    /// smaller file. The bytes of a compressed file are counted unpacked: readers hold each buffer
+    /// view in one piece, and many number its bytes with 32 bits, too.
     #[error(
         "GLB of {bytes} bytes or more, but the format ends at {limit}; write PLY, or fewer sides or subdivisions"
     )]

@@ -9,7 +9,7 @@ use texere_core::{Material, Vertex};
 
 use super::bounds::Bounds;
 #[cfg(feature = "glb")]
-use super::glb::GlbWriter;
+use super::glb::{CompressedGlbWriter, GlbWriter};
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 #[cfg(feature = "obj")]
 use super::obj::{ObjWriter, library_name};
@@ -34,6 +34,10 @@ fn writer<'a, W: Write + Seek + 'a>(
         #[cfg(feature = "glb")]
         Format::Glb | Format::PackedGlb => {
             Ok(Box::new(GlbWriter::start(target, plan, chunks, materials, bounds)?))
+        }
+        #[cfg(feature = "glb")]
+        Format::CompressedGlb => {
+            Ok(Box::new(CompressedGlbWriter::start(target, plan, chunks, materials, bounds)?))
         }
         #[cfg(feature = "ply")]
         Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials)?)),

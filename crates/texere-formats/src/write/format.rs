@@ -27,6 +27,17 @@ pub enum Format {
     /// No extension stands for this format alone: [`Output::packed`](super::Output::packed) asks
     /// for it.
     PackedGlb,
+    /// The packed form of glTF 2.0 binary, compressed: 6 to 7 bytes for a vertex, and a byte or two
+    /// for a triangle of the longest yarn instead of 12. `EXT_meshopt_compression` is the extension.
+    /// Positions are those of the packed form. Normals are off by 0.9 degrees at most. Unpacked, the
+    /// file has up to 4 GiB.
+    ///
+    /// The bytes are gathered before they are written. Beyond some megabytes they lie in unnamed
+    /// files beside the output, or in the system's folder for such files.
+    ///
+    /// No extension stands for this format alone: [`Output::compressed`](super::Output::compressed)
+    /// asks for it.
+    CompressedGlb,
     /// Binary PLY, up to 2³² - 1 vertices.
     Ply,
     /// Binary STL, up to 2³² - 1 triangles, without colours.
@@ -43,11 +54,16 @@ impl Format {
     #[must_use]
     pub const fn extension(self) -> &'static str {
         match self {
-            Self::Glb | Self::PackedGlb => "glb",
+            Self::Glb | Self::PackedGlb | Self::CompressedGlb => "glb",
             Self::Ply => "ply",
             Self::Stl => "stl",
             Self::Obj => "obj",
         }
+    }
+
+    /// Whether positions are packed, each in the box of its yarn.
+    pub(super) const fn is_packed(self) -> bool {
+        matches!(self, Self::PackedGlb | Self::CompressedGlb)
     }
 
     /// The format that the extension of `path` stands for, in upper or lower case.

@@ -87,10 +87,7 @@ fn whole<W: Write + Seek>(
 ) -> Result<Target<W>, WriteError> {
     feed::check(&mesh.plan, &mesh.materials)?;
     let target = start()?;
-    let bounds = match format {
-        Format::PackedGlb => Some(bounds(mesh)?),
-        _ => None,
-    };
+    let bounds = if format.is_packed() { Some(bounds(mesh)?) } else { None };
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
@@ -226,10 +223,7 @@ fn streamed<W: Write + Seek>(
     let chunks = || plan.chunks(&limits).map_err(PipelineError::from);
     feed::check(&plan, materials)?;
     let target = start()?;
-    let bounds = match format {
-        Format::PackedGlb => Some(survey(&mut run, chunks()?)?),
-        _ => None,
-    };
+    let bounds = if format.is_packed() { Some(survey(&mut run, chunks()?)?) } else { None };
     let mut feed = Feed::open(format, target, &plan, chunks()?, materials, bounds.as_ref())?;
     let answer = run.stream(chunks()?, |chunk, piece| {
         let fed = match piece {

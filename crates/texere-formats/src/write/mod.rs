@@ -3,7 +3,7 @@
 //!
 //! | format | extension | feature | holds |
 //! |---|---|---|---|
-//! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z; [packed](Output::packed) it has half the bytes for a vertex |
+//! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z; [packed](Output::packed) it has half the bytes for a vertex, [compressed](Output::compressed) a third |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //! | binary STL | `.stl` | `stl` | the triangles alone, each with its corners; millimetres |
 //! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |
@@ -64,6 +64,8 @@ mod picture;
 mod places;
 #[cfg(feature = "ply")]
 mod ply;
+#[cfg(feature = "glb")]
+mod spool;
 #[cfg(feature = "stl")]
 mod stl;
 mod target;

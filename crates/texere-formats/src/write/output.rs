@@ -37,6 +37,7 @@ pub struct Output {
 enum Form {
     Plain,
     Packed,
+    Compressed,
     Linear,
 }
 
@@ -80,6 +81,30 @@ impl Output {
         self
     }
 
+    /// Packs and compresses a mesh as [`Format::CompressedGlb`]. The path has to end in `.glb`.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_formats::write::{self, Output};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let [packed, compressed] = ["packed.glb", "compressed.glb"].map(|name| folder.path().join(name));
+    /// let mut yarns = Yarns::builder();
+    /// let points: Vec<_> = (0..200).map(|step| ControlPoint::new(step as f32, 0.0, 0.0, 0.1)).collect();
+    /// yarns.yarn(Yarn::default(), &points);
+    /// let mesh = Pipeline::new(&yarns.build()?).sides(12).mesh(&ParallelBackend::open()?)?;
+    /// write::mesh(&mesh, Output::to(&packed).packed())?;
+    /// write::mesh(&mesh, Output::to(&compressed).compressed())?;
+    /// let [packed, compressed] = [packed, compressed].map(|file| std::fs::metadata(file).unwrap().len());
+    /// assert!(compressed < packed / 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn compressed(mut self) -> Self {
+        self.form = Form::Compressed;
+        self
+    }
+
     /// Writes curves as [`CurveFormat::LinearUsda`]. The path has to end in `.usda`.
     ///
     /// ```
@@ -107,6 +132,7 @@ impl Output {
         self.check_form()?;
         match self.form {
             Form::Packed => Ok(Format::PackedGlb),
+            Form::Compressed => Ok(Format::CompressedGlb),
             Form::Plain | Form::Linear => Format::from_path(&self.path),
         }
     }
@@ -119,7 +145,7 @@ impl Output {
         self.check_form()?;
         match self.form {
             Form::Linear => Ok(CurveFormat::LinearUsda),
-            Form::Plain | Form::Packed => CurveFormat::from_path(&self.path),
+            Form::Plain | Form::Packed | Form::Compressed => CurveFormat::from_path(&self.path),
         }
     }
 
@@ -128,6 +154,7 @@ impl Output {
         let expected = match self.form {
             Form::Plain => return Ok(()),
             Form::Packed => Format::PackedGlb.extension(),
+            Form::Compressed => Format::CompressedGlb.extension(),
             Form::Linear => CurveFormat::LinearUsda.extension(),
         };
         self.clone().ending(expected).map(drop)
@@ -150,8 +177,8 @@ impl Output {
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed or linear,
-    /// [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
+    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed,
+    /// compressed or linear, [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
     /// file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)

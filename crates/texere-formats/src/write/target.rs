@@ -1,7 +1,7 @@
 //! A buffered file that is being written.
 
 use std::io::{self, Seek, SeekFrom, Write};
-#[cfg(feature = "obj")]
+#[cfg(any(feature = "glb", feature = "obj"))]
 use std::path::Path;
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ impl<W: Write> Target<W> {
     }
 
     /// The path that was asked for. None if the writer is the caller's.
-    #[cfg(feature = "obj")]
+    #[cfg(any(feature = "glb", feature = "obj"))]
     pub(super) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }

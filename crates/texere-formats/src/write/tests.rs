@@ -71,7 +71,7 @@ fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Fail
             &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize],
         );
     }
-    let bounds = (format == Format::PackedGlb).then_some(&bounds);
+    let bounds = format.is_packed().then_some(&bounds);
     let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds)?;
     for chunk in &mesh.chunks {
         let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
@@ -90,7 +90,7 @@ fn a_full_disk_is_an_error_at_any_byte() {
     let folder = tempfile::tempdir().unwrap();
     let on_disk = |room| Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room };
     let mesh = mesh();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb]) {
+    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
         let plenty = 1 << 30;
         let needed = plenty - write(&mesh, format, usize::MAX, on_disk(plenty)).unwrap().room;
         for room in (0..needed).step_by(100_003).chain([1, 11, 12, needed - 1]) {
@@ -109,7 +109,7 @@ fn a_full_disk_is_an_error_at_any_byte() {
 fn pieces_of_any_size_give_the_same_file() {
     let mesh = mesh();
     let folder = tempfile::tempdir().unwrap();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb]) {
+    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
         let file = |piece| {
             let out = Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room: usize::MAX };
             fs::read(write(&mesh, format, piece, out).unwrap().file.path()).unwrap()

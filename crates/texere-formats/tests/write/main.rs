@@ -1,6 +1,7 @@
 //! Written files, read back by other readers; and the files that are left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod compressed;
 mod designs;
 mod draft;
 mod fabric;
@@ -14,4 +15,5 @@ mod pieces;
 mod ply;
 mod random_designs;
 mod stl;
+mod unpack;
 mod writers;

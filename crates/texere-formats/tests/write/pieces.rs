@@ -9,6 +9,7 @@ use texere_cpu::SerialBackend;
 use texere_formats::write::{self, Format, Output};
 
 use crate::fabric::{fabric, long_yarn, pipeline, region, triangles, ways, whole};
+use crate::unpack::unpack;
 use crate::{obj, stl};
 
 /// Union-find: sets are joined when two of their members are.
@@ -70,10 +71,14 @@ fn of_ply(bytes: &[u8]) -> usize {
 fn of_glb(bytes: &[u8]) -> usize {
     // The gltf crate refuses files that need an extension, such as packed ones.
     let gltf = Gltf::from_slice_without_validation(bytes).unwrap();
-    let blob = gltf.blob.as_deref().unwrap();
+    of_primitives(&gltf, gltf.blob.as_deref().unwrap())
+}
+
+/// Number of pieces of a GLB file whose buffer views lie in `buffer`.
+fn of_primitives(gltf: &Gltf, buffer: &[u8]) -> usize {
     let primitives = gltf.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
     let pieces = primitives.map(|primitive| {
-        let reader = primitive.reader(|_| Some(blob));
+        let reader = primitive.reader(|_| Some(buffer));
         let indices: Vec<_> = reader.read_indices().unwrap().into_u32().map(|index| index as usize).collect();
         let vertices = primitive.get(&Semantic::Positions).unwrap().count();
         Pieces::of(vertices, indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|k| corners[k]))).count()
@@ -116,10 +121,11 @@ fn of_obj(bytes: &[u8]) -> usize {
 /// Calls `check` with the files of `mesh` and of `stream` in each format.
 fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
     let folder = tempfile::tempdir().unwrap();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb]) {
+    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
         let path = folder.path().join("fabric").with_extension(format.extension());
         let output = || match format {
             Format::PackedGlb => Output::to(&path).packed(),
+            Format::CompressedGlb => Output::to(&path).compressed(),
             _ => Output::to(&path),
         };
         write::stream(make(), &SerialBackend::new(), output()).unwrap();
@@ -132,6 +138,10 @@ fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8
 fn pieces(format: Format, bytes: &[u8]) -> usize {
     match format {
         Format::Glb | Format::PackedGlb => of_glb(bytes),
+        Format::CompressedGlb => {
+            let file = unpack(bytes);
+            of_primitives(&file.gltf, &file.buffer)
+        }
         Format::Ply => of_ply(bytes),
         Format::Stl => of_stl(bytes),
         Format::Obj => of_obj(bytes),

@@ -3,35 +3,19 @@
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
-use std::io::Write;
 use std::ops::Range;
 
 use texere_core::backend::{Chunk, Plan};
 use texere_core::definitions::index_pattern;
 use texere_core::{End, Material, Origin, Vertex};
 
-use super::grid::{Grid, PackedBytes};
+use super::form::{VertexForm, index_accessor};
+use super::grid::Grid;
 use super::json::Json;
-use super::schema::{
-    self, ARRAY_BUFFER, Accessor, Asset, Attributes, BYTE, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT,
-    Gltf, MetallicRoughness, Node, Primitive, SHORT, Scene, UNSIGNED_INT,
-};
+use super::schema::{self, Accessor, Asset, Attributes, Gltf, MetallicRoughness, Node, Primitive, Scene};
 use crate::write::WriteError;
 use crate::write::bounds::widen;
 use crate::write::places::Places;
-use crate::write::target::Target;
-
-/// The number of the buffer view that holds the index pattern.
-const PATTERN: usize = 0;
-
-/// The number of the buffer view that holds all vertices.
-const VERTICES: usize = 1;
-
-/// Bytes of an index.
-const INDEX_BYTES: u64 = size_of::<u32>() as u64;
-
-/// The extension that allows positions in 16-bit numbers and normals in 8-bit numbers.
-const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
@@ -50,9 +34,11 @@ const ROUGHNESS: f32 = 0.9;
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
-    /// The shapes in the order of their vertices. Accessor 2 i has the positions of shape i, and
-    /// accessor 2 i + 1 its normals.
+    /// The shapes in the order of their vertices.
     shapes: Vec<Shape>,
+    /// The number of columns. Each shape has as many accessors, of which the first has its
+    /// positions and the second its normals.
+    columns: usize,
     /// The number of gaps between rings of the longest tube. The index pattern covers as many gaps.
     gaps: u64,
 }
@@ -115,12 +101,13 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
 }
 
 impl Document {
-    /// Describes the mesh of `plan`, cut into `chunks`. If there are `grids`, one for each yarn,
-    /// vertices are packed.
+    /// Describes the mesh of `plan`, cut into `chunks`, with vertices of the given `form`. If they
+    /// are packed, there are `grids`, one for each yarn.
     pub(super) fn new(
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
+        form: &VertexForm,
         grids: Option<&[Grid]>,
     ) -> Self {
         let yarns = plan.layout().yarns();
@@ -128,17 +115,17 @@ impl Document {
             .map(|(number, yarn)| schema::Mesh { name: name(number, yarn.origin), primitives: Vec::new() })
             .zip(0..)
             .collect();
-        let vertex_form = if grids.is_some() { VertexForm::PACKED } else { VertexForm::PLAIN };
         let (shapes, gaps) = shapes(plan, chunks);
-        let mut accessors: Vec<_> = shapes.iter().flat_map(|shape| vertex_form.accessors(shape)).collect();
+        let mut accessors: Vec<_> = shapes.iter().flat_map(|shape| form.accessors(&shape.vertices)).collect();
+        let columns = form.columns.len();
         let mut patterns = HashMap::new();
         for (number, shape) in shapes.iter().enumerate() {
             let indices = *patterns.entry(shape.indices.clone()).or_insert_with(|| {
-                accessors.push(index_accessor(shape));
+                accessors.push(index_accessor(&shape.indices));
                 accessors.len() - 1
             });
             meshes[shape.yarn as usize].0.primitives.push(Primitive {
-                attributes: Attributes { position: 2 * number, normal: 2 * number + 1 },
+                attributes: Attributes { position: number * columns, normal: number * columns + 1 },
                 indices,
                 material: yarns[shape.yarn as usize].material,
             });
@@ -150,50 +137,66 @@ impl Document {
         let sides = u64::from(plan.settings().sides);
         let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
         let pattern = gaps * sides * 6 + ends * (sides - 2) * 3;
-        let views = buffer_views(pattern * INDEX_BYTES, plan.counts().vertices, vertex_form.bytes);
-        let extensions = Vec::from_iter(grids.is_some().then_some(QUANTIZATION));
+        let (buffer_views, buffers) = form.views(pattern, plan.counts().vertices);
         let gltf = Gltf {
             asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },
-            extensions_used: extensions.clone(),
-            extensions_required: extensions,
+            extensions_used: form.extensions(),
+            extensions_required: form.extensions(),
             scene: 0,
             scenes: [Scene { nodes: [0] }],
             nodes,
             meshes: meshes.into_iter().map(|(mesh, _)| mesh).collect(),
             materials: materials.iter().map(surface).collect(),
             accessors,
-            buffers: [Buffer { byte_length: views.iter().map(|view| view.byte_length).sum() }],
-            buffer_views: views,
+            buffer_views,
+            buffers,
         };
-        Self { gltf, shapes, gaps }
+        Self { gltf, shapes, columns, gaps }
     }
 
-    /// Writes the index pattern: the quads of the longest tube, gap after gap. With caps, the
-    /// triangles of the start cap and of the finish cap of each section follow. Indices count from
-    /// the first vertex of a shape.
-    pub(super) fn write_pattern<W: Write>(
+    /// Calls `each` with all corners of the index pattern: the quads of the longest tube, gap after
+    /// gap. With caps, the triangles of the start cap and of the finish cap of each section follow.
+    /// Indices count from the first vertex of a shape.
+    pub(super) fn pattern(
         &self,
         plan: &Plan,
-        target: &mut Target<W>,
+        mut each: impl FnMut(&[u32]) -> Result<(), WriteError>,
     ) -> Result<(), WriteError> {
         let sides = plan.settings().sides;
         let mut quads = index_pattern(sides);
         for _ in 0..self.gaps {
-            target.write_words(&quads)?;
+            each(&quads)?;
             quads.iter_mut().for_each(|corner| *corner += sides);
         }
         let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
         for (section, end) in
             (0..sections).flat_map(|section| [End::Start, End::Finish].map(|end| (section, end)))
         {
-            target.write_words(&plan.cap_indices(section, end).collect::<Vec<_>>())?;
+            each(&plan.cap_indices(section, end).collect::<Vec<_>>())?;
         }
         Ok(())
     }
 
-    /// The size of the buffer, bytes.
+    /// The size of the file's buffer, bytes: of compressed buffer views before they have [places]
+    /// in it, that of the views unpacked.
+    ///
+    /// [places]: Self::place
     pub(super) fn buffer_bytes(&self) -> u64 {
         self.gltf.buffers[0].byte_length
+    }
+
+    /// Gives the compressed buffer views, which have these `lengths` in bytes, their places in the
+    /// file's buffer, one after the other.
+    pub(super) fn place(&mut self, lengths: impl Iterator<Item = u64>) {
+        let mut end = 0;
+        for (view, length) in self.gltf.buffer_views.iter_mut().zip(lengths) {
+            if let Some(extensions) = &mut view.extensions {
+                (extensions.compression.byte_offset, extensions.compression.byte_length) = (end, length);
+            }
+            end += length;
+        }
+        // A GLB file pads its buffer.
+        self.gltf.buffers[0].byte_length = end.next_multiple_of(4);
     }
 
     /// Widens the bounds of the shapes that `vertices` belong to. `vertices` are those of the file
@@ -207,7 +210,9 @@ impl Document {
             }
             let own = (shape.vertices.start.max(first) - first) as usize
                 ..(shape.vertices.end.min(end) - first) as usize;
-            if let Accessor { min: Some(min), max: Some(max), .. } = &mut self.gltf.accessors[2 * number] {
+            if let Accessor { min: Some(min), max: Some(max), .. } =
+                &mut self.gltf.accessors[number * self.columns]
+            {
                 widen([min, max], &vertices[own]);
             }
         }
@@ -266,83 +271,4 @@ fn surface(material: &Material) -> schema::Material {
             roughness_factor: ROUGHNESS,
         },
     }
-}
-
-/// How vertices are stored.
-#[derive(Debug, Clone, Copy)]
-struct VertexForm {
-    /// Bytes of a vertex.
-    bytes: u64,
-    /// Bytes of a vertex before its normal.
-    normal_at: u64,
-    /// The kinds of numbers of positions and of normals.
-    kinds: [u32; 2],
-    /// Whether the whole numbers of normals stand for shares of 1. None if normals are floats.
-    normalized: Option<bool>,
-}
-
-impl VertexForm {
-    const PLAIN: Self = Self {
-        bytes: size_of::<Vertex>() as u64,
-        normal_at: std::mem::offset_of!(Vertex, normal) as u64,
-        kinds: [FLOAT; 2],
-        normalized: None,
-    };
-
-    const PACKED: Self = Self {
-        bytes: size_of::<PackedBytes>() as u64,
-        normal_at: 8,
-        kinds: [SHORT, BYTE],
-        normalized: Some(true),
-    };
-
-    /// The accessors of positions and normals of a shape. At first the minimum is the largest
-    /// number and the maximum the smallest, so that the first vertex sets both.
-    fn accessors(self, shape: &Shape) -> [Accessor; 2] {
-        let of = |offset, kind, normalized, [min, max]: [Option<[f32; 3]>; 2]| Accessor {
-            buffer_view: VERTICES,
-            byte_offset: shape.vertices.start * self.bytes + offset,
-            component_type: kind,
-            normalized,
-            count: shape.vertices.end - shape.vertices.start,
-            shape: "VEC3",
-            min,
-            max,
-        };
-        let inside_out = [f32::MAX, f32::MIN].map(|bound| Some([bound; 3]));
-        let [positions, normals] = self.kinds;
-        [of(0, positions, None, inside_out), of(self.normal_at, normals, self.normalized, [None; 2])]
-    }
-}
-
-fn index_accessor(shape: &Shape) -> Accessor {
-    Accessor {
-        buffer_view: PATTERN,
-        byte_offset: shape.indices.start * INDEX_BYTES,
-        component_type: UNSIGNED_INT,
-        normalized: None,
-        count: shape.indices.end - shape.indices.start,
-        shape: "SCALAR",
-        min: None,
-        max: None,
-    }
-}
-
-fn buffer_views(pattern_bytes: u64, vertices: u64, vertex_bytes: u64) -> [BufferView; 2] {
-    let pattern = BufferView {
-        buffer: 0,
-        byte_offset: 0,
-        byte_length: pattern_bytes,
-        byte_stride: None,
-        target: ELEMENT_ARRAY_BUFFER,
-    };
-    let vertices = BufferView {
-        buffer: 0,
-        byte_offset: pattern_bytes,
-        byte_length: vertices * vertex_bytes,
-        byte_stride: Some(vertex_bytes),
-        target: ARRAY_BUFFER,
-    };
-    // The order is that of the numbers `PATTERN` and `VERTICES`.
-    [pattern, vertices]
 }

@@ -33,10 +33,6 @@ pub(super) struct Grid {
     pub(super) step: f32,
 }
 
-/// The bytes of a packed vertex: three 16-bit coordinates and padding, then a normal of three 8-bit
-/// numbers and padding.
-pub(super) type PackedBytes = [u8; 12];
-
 impl Grid {
     /// The finest grid for each yarn.
     ///
@@ -68,14 +64,17 @@ impl Grid {
     }
 }
 
-/// A vertex with its position in whole steps, as bytes.
-pub(super) fn packed(stepped: &Vertex) -> PackedBytes {
-    let mut bytes = [0; 12];
-    for (axis, steps) in stepped.position.into_iter().enumerate() {
-        bytes[2 * axis..2 * axis + 2].copy_from_slice(&(steps as i16).to_le_bytes());
-    }
-    for (axis, share) in stepped.normal.into_iter().enumerate() {
-        bytes[8 + axis] = (share * NORMAL_STEPS).round_ties_even() as i8 as u8;
+/// The bytes of a position in whole steps: three 16-bit coordinates and padding.
+pub(super) fn packed_position(steps: [f32; 3]) -> [u8; 8] {
+    let mut bytes = [0; 8];
+    for (place, steps) in bytes.chunks_exact_mut(2).zip(steps) {
+        place.copy_from_slice(&(steps as i16).to_le_bytes());
     }
     bytes
+}
+
+/// The bytes of a normal: three 8-bit numbers and padding.
+pub(super) fn packed_normal(normal: [f32; 3]) -> [u8; 4] {
+    let [x, y, z] = normal.map(|share| (share * NORMAL_STEPS).round_ties_even() as i8 as u8);
+    [x, y, z, 0]
 }

@@ -2,16 +2,21 @@
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification", section 4.4 for the container.
 
+mod compressed;
 mod document;
+mod form;
 mod grid;
 mod json;
+mod meshopt;
 mod schema;
 
 use std::borrow::Borrow;
 use std::io::{Seek, Write};
 
+pub(super) use compressed::CompressedGlbWriter;
 use document::Document;
-use grid::{Grid, PackedBytes};
+use form::VertexForm;
+use grid::Grid;
 use texere_core::backend::{Chunk, Plan};
 use texere_core::{Material, Vertex};
 
@@ -45,6 +50,7 @@ pub(super) struct GlbWriter<W: Write + Seek> {
     document: Document,
     /// The byte at which the vertices begin.
     vertices_at: u64,
+    vertex_bytes: u64,
     sides: u32,
     /// The grid of each yarn, if vertices are packed.
     grids: Option<Vec<Grid>>,
@@ -59,45 +65,31 @@ impl<W: Write + Seek> GlbWriter<W> {
         materials: &[Material],
         bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
-        // The size is checked first, because there may be millions of chunks to go through.
-        let vertex_bytes = if bounds.is_some() { size_of::<PackedBytes>() } else { size_of::<Vertex>() };
-        check(plan.counts().vertices * vertex_bytes as u64)?;
-        let grids = bounds.map(Grid::all).transpose()?;
-        let document = Document::new(plan, chunks, materials, grids.as_deref());
-        check(document.buffer_bytes())?;
-        let json = document.to_json();
-        let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
-        check(bytes)?;
-        target.write(b"glTF")?;
-        target.write_words(&[2, bytes as u32, json.len() as u32])?;
-        target.write(b"JSON")?;
-        target.write(json.as_bytes())?;
-        target.write_words(&[document.buffer_bytes() as u32])?;
-        target.write(b"BIN\0")?;
-        document.write_pattern(plan, &mut target)?;
+        let form = if bounds.is_some() { VertexForm::packed() } else { VertexForm::plain() };
+        let (document, grids) = describe(plan, chunks, materials, &form, bounds)?;
+        begin(&document, &mut target)?;
+        document.pattern(plan, |corners| target.write_words(corners))?;
         let vertices_at = target.position();
-        Ok(Self { target, document, vertices_at, sides: plan.settings().sides, grids })
+        let (vertex_bytes, sides) = (form.bytes(), plan.settings().sides);
+        Ok(Self { target, document, vertices_at, vertex_bytes, sides, grids })
     }
 }
 
 impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
+        self.target.go_to(self.vertices_at + run.place * self.vertex_bytes)?;
         let Some(grids) = &self.grids else {
             self.document.include(run.place, run.vertices);
-            self.target.go_to(self.vertices_at + run.place * size_of::<Vertex>() as u64)?;
             return self.target.write_words(bytemuck::cast_slice(run.vertices));
         };
-        self.target.go_to(self.vertices_at + run.place * size_of::<PackedBytes>() as u64)?;
-        for (yarn, own) in yarn_runs(run.chunk, self.sides, run.first, run.vertices.len()) {
-            let (grid, mut place) = (&grids[yarn as usize], run.place + own.start as u64);
-            for vertices in run.vertices[own].chunks(BATCH) {
-                let stepped: Vec<_> = vertices.iter().map(|vertex| grid.stepped(vertex)).collect();
-                self.document.include(place, &stepped);
-                self.target.write(stepped.iter().map(grid::packed).collect::<Vec<_>>().as_flattened())?;
-                place += vertices.len() as u64;
-            }
-        }
-        Ok(())
+        each_stepped(grids, self.sides, &run, |place, stepped| {
+            self.document.include(place, stepped);
+            let bytes = stepped.iter().flat_map(|vertex| {
+                let normal = grid::packed_normal(vertex.normal);
+                grid::packed_position(vertex.position).into_iter().chain(normal)
+            });
+            self.target.write(&bytes.collect::<Vec<_>>())
+        })
     }
 
     /// Nothing is left to write: all triangles are in the pattern, which is written first.
@@ -110,6 +102,57 @@ impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
         self.target.write(self.document.to_json().as_bytes())?;
         Ok(self.target)
     }
+}
+
+/// The document of a mesh, and the grids of its yarns if there are `bounds`.
+///
+/// **Errors**: [`WriteError::TooLongToPack`] and [`WriteError::GlbTooLarge`].
+fn describe(
+    plan: &Plan,
+    chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+    materials: &[Material],
+    form: &VertexForm,
+    bounds: Option<&Bounds>,
+) -> Result<(Document, Option<Vec<Grid>>), WriteError> {
+    // The size is checked first, because there may be millions of chunks to go through.
+    check(plan.counts().vertices * form.bytes())?;
+    let grids = bounds.map(Grid::all).transpose()?;
+    let document = Document::new(plan, chunks, materials, form, grids.as_deref());
+    check(document.buffer_bytes())?;
+    Ok((document, grids))
+}
+
+/// Writes everything that comes before the buffer.
+///
+/// **Errors**: [`WriteError::GlbTooLarge`] before a byte is written.
+fn begin<W: Write>(document: &Document, target: &mut Target<W>) -> Result<(), WriteError> {
+    let json = document.to_json();
+    let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
+    check(bytes)?;
+    target.write(b"glTF")?;
+    target.write_words(&[2, bytes as u32, json.len() as u32])?;
+    target.write(b"JSON")?;
+    target.write(json.as_bytes())?;
+    target.write_words(&[document.buffer_bytes() as u32])?;
+    target.write(b"BIN\0")
+}
+
+/// Calls `each` with the vertices of a run, some thousand at a time, and the number of their first
+/// in the file. Their positions are in steps of their yarn's grid.
+fn each_stepped(
+    grids: &[Grid],
+    sides: u32,
+    run: &Run<'_>,
+    mut each: impl FnMut(u64, &[Vertex]) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    for (yarn, own) in yarn_runs(run.chunk, sides, run.first, run.vertices.len()) {
+        let (grid, mut place) = (&grids[yarn as usize], run.place + own.start as u64);
+        for vertices in run.vertices[own].chunks(BATCH) {
+            each(place, &vertices.iter().map(|vertex| grid.stepped(vertex)).collect::<Vec<_>>())?;
+            place += vertices.len() as u64;
+        }
+    }
+    Ok(())
 }
 
 fn check(bytes: u64) -> Result<(), WriteError> {

@@ -27,8 +27,8 @@ objects! {
         "meshes" meshes: Vec<Mesh>,
         "materials" materials: Vec<Material>,
         "accessors" accessors: Vec<Accessor>,
-        "bufferViews" buffer_views: [BufferView; 2],
-        "buffers" buffers: [Buffer; 1],
+        "bufferViews" buffer_views: Vec<BufferView>,
+        "buffers" buffers: Vec<Buffer>,
     }
 
     Asset {
@@ -92,9 +92,33 @@ objects! {
         "byteLength" byte_length: u64,
         "byteStride" byte_stride: Option<u64>,
         "target" target: u32,
+        "extensions" extensions: Option<ViewExtensions>,
+    }
+
+    ViewExtensions {
+        "EXT_meshopt_compression" compression: Compression,
+    }
+
+    Compression {
+        "buffer" buffer: usize,
+        "byteOffset" byte_offset: u64,
+        "byteLength" byte_length: u64,
+        "byteStride" byte_stride: u64,
+        "count" count: u64,
+        "mode" mode: &'static str,
+        "filter" filter: Option<&'static str>,
     }
 
     Buffer {
         "byteLength" byte_length: u64,
+        "extensions" extensions: Option<BufferExtensions>,
+    }
+
+    BufferExtensions {
+        "EXT_meshopt_compression" compression: Fallback,
+    }
+
+    Fallback {
+        "fallback" fallback: bool,
     }
 }

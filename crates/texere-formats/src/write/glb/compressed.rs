@@ -1,0 +1,158 @@
+//! GLB files whose buffer views are compressed.
+
+use std::borrow::Borrow;
+use std::io::{Seek, Write};
+use std::path::Path;
+
+use texere_core::backend::{Chunk, Plan, SessionError, room_for};
+use texere_core::{Material, PipelineError};
+
+use super::document::Document;
+use super::form::VertexForm;
+use super::grid::{Grid, packed_position};
+use super::meshopt::{AttributeEncoder, TriangleEncoder, octahedral};
+use super::{begin, describe, each_stepped};
+use crate::write::WriteError;
+use crate::write::bounds::Bounds;
+use crate::write::mesh_writer::{MeshWriter, Run};
+use crate::write::places::Places;
+use crate::write::spool::Spool;
+use crate::write::target::Target;
+
+/// A compressed GLB file that is being written.
+///
+/// The document comes first in the file, but states how long each compressed buffer view is. All
+/// views are therefore spooled, and the file is written when they are complete. A file that is too
+/// large is refused before a byte is written.
+#[derive(Debug)]
+pub(in crate::write) struct CompressedGlbWriter<W: Write + Seek> {
+    target: Target<W>,
+    document: Document,
+    grids: Vec<Grid>,
+    sides: u32,
+    /// The compressed index pattern in its parts, one after the other.
+    pattern: [Spool; 2],
+    /// The compressed columns of the vertices.
+    columns: Vec<CompressedColumn>,
+    /// The number of the first vertex of a cap.
+    first_of_caps: u64,
+}
+
+impl<W: Write + Seek> CompressedGlbWriter<W> {
+    /// Starts a file. It needs `bounds`, the boxes of all yarns.
+    pub(in crate::write) fn start(
+        target: Target<W>,
+        plan: &Plan,
+        chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+        materials: &[Material],
+        bounds: Option<&Bounds>,
+    ) -> Result<Self, WriteError> {
+        let form = VertexForm::compressed();
+        let (document, grids) = describe(plan, chunks, materials, &form, bounds)?;
+        let sides = plan.settings().sides;
+        let first_of_caps = plan.counts().rings * u64::from(sides);
+        let caps = plan.counts().vertices - first_of_caps;
+        let column = |stride| CompressedColumn::new(stride, caps, target.path());
+        Ok(Self {
+            pattern: compressed_pattern(plan, &document, target.path())?,
+            columns: form.columns.iter().map(|each| column(each.bytes)).collect::<Result<_, _>>()?,
+            document,
+            grids: grids.unwrap_or_default(),
+            sides,
+            first_of_caps,
+            target,
+        })
+    }
+}
+
+impl<W: Write + Seek> MeshWriter<W> for CompressedGlbWriter<W> {
+    fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
+        each_stepped(&self.grids, self.sides, &run, |place, stepped| {
+            self.document.include(place, stepped);
+            let of_cap = place >= self.first_of_caps;
+            let positions: Vec<_> = stepped.iter().map(|vertex| packed_position(vertex.position)).collect();
+            self.columns[0].add(of_cap, positions.as_flattened())?;
+            let normals: Vec<_> = stepped.iter().map(|vertex| octahedral(vertex.normal, 0)).collect();
+            self.columns[1].add(of_cap, normals.as_flattened())
+        })
+    }
+
+    /// Nothing is left to write: all triangles are in the pattern.
+    fn triangles(&mut self, _: &Chunk, _: &Places) -> Result<(), WriteError> {
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<Target<W>, WriteError> {
+        let columns =
+            self.columns.into_iter().map(CompressedColumn::finish).collect::<Result<Vec<_>, _>>()?;
+        let pattern = self.pattern.iter().map(Spool::len).sum();
+        self.document.place(std::iter::once(pattern).chain(columns.iter().map(Spool::len)));
+        begin(&self.document, &mut self.target)?;
+        let start = self.target.position();
+        for spool in self.pattern.into_iter().chain(columns) {
+            spool.write_to(&mut self.target)?;
+        }
+        let padding = start + self.document.buffer_bytes() - self.target.position();
+        self.target.write(&[0; 4][..padding as usize])?;
+        Ok(self.target)
+    }
+}
+
+/// The index pattern, compressed in two parts: the codes of all triangles, and the rest.
+fn compressed_pattern(
+    plan: &Plan,
+    document: &Document,
+    path: Option<&Path>,
+) -> Result<[Spool; 2], WriteError> {
+    let [mut codes, mut further] = [path; 2].map(Spool::beside);
+    let mut encoder = TriangleEncoder::new();
+    let start = codes.write_all(&TriangleEncoder::START);
+    start.map_err(|source| codes.failed(source))?;
+    document.pattern(plan, |corners| {
+        let mut triangles = corners.as_chunks().0.iter();
+        let added = triangles.try_for_each(|triangle| encoder.add(*triangle, &mut codes, &mut further));
+        added.map_err(|source| codes.failed(source))
+    })?;
+    let end = further.write_all(&TriangleEncoder::END);
+    end.map_err(|source| further.failed(source))?;
+    Ok([codes, further])
+}
+
+/// A column of all vertices, as it is compressed.
+#[derive(Debug)]
+struct CompressedColumn {
+    encoder: AttributeEncoder,
+    spool: Spool,
+    /// The column of the caps, not compressed. The vertices of caps come between those of tubes, but
+    /// follow them in the file.
+    caps: Vec<u8>,
+}
+
+impl CompressedColumn {
+    /// A column of `stride` bytes for each vertex, with `caps` vertices of caps.
+    ///
+    /// **Errors**: [`WriteError::Pipeline`] if memory is short.
+    fn new(stride: u64, caps: u64, path: Option<&Path>) -> Result<Self, WriteError> {
+        let mut bytes = Vec::new();
+        room_for(&mut bytes, (caps * stride) as usize, "vertices of caps")
+            .map_err(|short| PipelineError::from(SessionError::from(short)))?;
+        Ok(Self { encoder: AttributeEncoder::new(stride as usize), spool: Spool::beside(path), caps: bytes })
+    }
+
+    /// Takes the column of further vertices, which are those of a cap if `of_cap` says so.
+    fn add(&mut self, of_cap: bool, bytes: &[u8]) -> Result<(), WriteError> {
+        if of_cap {
+            self.caps.extend_from_slice(bytes);
+            return Ok(());
+        }
+        self.encoder.add(bytes, &mut self.spool).map_err(|source| self.spool.failed(source))
+    }
+
+    /// The whole column.
+    fn finish(self) -> Result<Spool, WriteError> {
+        let Self { mut encoder, mut spool, caps } = self;
+        let finished = encoder.add(&caps, &mut spool).and_then(|()| encoder.finish(&mut spool));
+        finished.map_err(|source| spool.failed(source))?;
+        Ok(spool)
+    }
+}

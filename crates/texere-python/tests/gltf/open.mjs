@@ -3,14 +3,19 @@
 
 import { readFileSync } from 'node:fs';
 import { NodeIO } from '@gltf-transform/core';
-import { KHRMeshQuantization } from '@gltf-transform/extensions';
+import { EXTMeshoptCompression, KHRMeshQuantization } from '@gltf-transform/extensions';
 import validator from 'gltf-validator';
+import { MeshoptDecoder } from 'meshoptimizer/decoder';
 
 const path = process.argv[2];
 const bytes = new Uint8Array(readFileSync(path));
 const report = await validator.validateBytes(bytes, { uri: path, maxIssues: 100 });
 
-const document = await new NodeIO().registerExtensions([KHRMeshQuantization]).readBinary(bytes);
+await MeshoptDecoder.ready;
+const io = new NodeIO()
+  .registerExtensions([EXTMeshoptCompression, KHRMeshQuantization])
+  .registerDependencies({ 'meshopt.decoder': MeshoptDecoder });
+const document = await io.readBinary(bytes);
 const yarns = [];
 for (const node of document.getRoot().listNodes()) {
   const matrix = node.getWorldMatrix();

@@ -13,6 +13,8 @@ namespace Texere
         Toml = 0,
         /// <summary>A WIF 1.1 draft, .wif, which has no finish.</summary>
         Wif = 1,
+        /// <summary>A program of a knitting machine, knitout, .k.</summary>
+        Knitout = 2,
     }
 
     /// <summary>The forms of a mesh in a file.</summary>

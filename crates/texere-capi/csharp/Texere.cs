@@ -128,11 +128,11 @@ namespace Texere
 
         internal texere_design* Own => (texere_design*)Pointer;
 
-        /// <summary>Writes woven cloth to a file, .toml or .wif.</summary>
+        /// <summary>Writes the design to a file, .toml, .wif or .k, if that file can hold it.</summary>
         public void Write(string path) =>
             Files.Write(path, (text, length) => Native.texere_design_write(Own, text, length), this);
 
-        /// <summary>Writes woven cloth to a stream.</summary>
+        /// <summary>Writes the design to a stream, if the format can hold it.</summary>
         public void Write(DesignFormat format, Stream stream) => Files.Write(
             stream,
             each => Native.texere_design_write_to(

@@ -4,7 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::io;
 use std::path::Path;
 
-use texere::Design;
+use texere::{Design, WriteError, write};
 
 use crate::argument::{slice, text};
 use crate::callback_file::{CallbackFile, texere_write_callback};
@@ -98,13 +98,15 @@ pub unsafe extern "C" fn texere_design_read_memory(
     })
 }
 
-/// Writes a design of woven cloth to a file that `texere_design_read` reads. The ending of `path`
-/// says which: `.toml` for texere's own design file, `.wif` for a WIF 1.1 draft, which leaves out
-/// what drafts don't have. An existing file of that name is replaced only once the new one is
+/// Writes a design to a file that `texere_design_read` reads. The ending of `path` says which:
+/// `.toml` for texere's own design file, which holds woven cloth, weft knits that were read from a
+/// chart or a picture, and warp knits; `.wif` for a WIF 1.1 draft, which holds woven cloth, and
+/// leaves out what drafts don't have; `.k` or `.knitout` for a knitout file, which holds weft knits
+/// that were read from one. An existing file of that name is replaced only once the new one is
 /// complete.
 ///
-/// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a knit, and with
-/// TEXERE_IO if the file can't be written.
+/// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the file
+/// can't hold, and with TEXERE_IO if the file can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_write(
     design: *const texere_design,
@@ -117,10 +119,11 @@ pub unsafe extern "C" fn texere_design_write(
         let design = get(design)?;
         let ending = Path::new(path).extension().map(|ending| ending.to_ascii_lowercase());
         match ending.as_deref().and_then(|ending| ending.to_str()) {
-            Some("toml") => texere::write::toml(&design, path)?,
-            Some("wif") => texere::write::wif(&design, path)?,
+            Some("toml") => write::toml(&design, path)?,
+            Some("wif") => write::wif(&design, path)?,
+            Some("k" | "knitout") => write::knitout(&design, path)?,
             _ => {
-                let said = format!("path is {path:?}, expected one that ends in .toml or .wif");
+                let said = format!("path is {path:?}, expected one that ends in .toml, .wif, .k or .knitout");
                 return Err(Failure::argument(said));
             }
         };
@@ -132,14 +135,17 @@ pub unsafe extern "C" fn texere_design_write(
 pub const TEXERE_DESIGN_FORMAT_TOML: u32 = 0;
 /// The form of a WIF 1.1 draft, `.wif`.
 pub const TEXERE_DESIGN_FORMAT_WIF: u32 = 1;
+/// The form of a knitout file, `.k`.
+pub const TEXERE_DESIGN_FORMAT_KNITOUT: u32 = 2;
 
-/// Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+/// Writes a design, not to a file but to `callback`, which gets the bytes that
 /// `texere_design_write` would write. `format` is a constant whose name begins with
 /// TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
 /// argument.
 ///
-/// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-/// number other than 0. The bytes that the callback had been given by then are not a complete file.
+/// Fails with TEXERE_UNSUPPORTED for a design that the format can't hold, and with TEXERE_CANCELLED
+/// if the callback returned a number other than 0. The bytes that the callback had been given by
+/// then are not a complete file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_write_to(
     design: *const texere_design,
@@ -150,13 +156,11 @@ pub unsafe extern "C" fn texere_design_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let is_wif = choice("format", format, &[false, true])?;
+        let writers: [fn(&Design, CallbackFile) -> Result<Vec<String>, WriteError>; 3] =
+            [write::toml_to, write::wif_to, write::knitout_to];
+        let write = choice("format", format, &writers)?;
         let design = get(design)?;
-        if is_wif {
-            texere::write::wif_to(&design, file)?;
-        } else {
-            texere::write::toml_to(&design, file)?;
-        }
+        write(&design, file)?;
         Ok(())
     })
 }

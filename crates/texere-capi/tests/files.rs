@@ -26,6 +26,9 @@ const WOVEN: &str = "weave = { notation = \"2/1\", ends = 6, picks = 6 }\nfinish
 const KNIT: &str = "knit = { chart = \"kp\", loop_length_mm = 3.2 }\nfinish.settle = false\n\
     yarns.a.diameter_mm = 0.2\n";
 
+const PROGRAM: &str =
+    ";!knitout-2\n;;Carriers: 1\nin 1\nknit + f0 1\nknit + f1 1\nknit - f1 1\nknit - f0 1\nout 1\n";
+
 /// A call that writes a file to a path.
 type Path<'a> = Box<dyn Fn(*const c_char, usize) -> texere_status + 'a>;
 /// A call that gives the bytes of a file to a callback.
@@ -55,14 +58,19 @@ fn written(to: &Callback<'_>) -> Vec<u8> {
 fn callbacks_are_handed_the_bytes_of_the_files() {
     let (design, knit) = (read(WOVEN), read(KNIT));
     // SAFETY: all pointers are those of values that live as long as the calls.
-    let (yarns, renderer, picture) = unsafe {
+    let (program, yarns, renderer, picture) = unsafe {
+        let (name, text) = ("a.k", PROGRAM);
+        let (name, length) = (name.as_ptr().cast(), name.len());
+        let program = made(|out| {
+            texere_design_read_memory(name, length, text.as_ptr(), text.len(), None, null_mut(), out)
+        });
         let cloth = made(|out| texere_cloth_placed(design, out));
         let yarns = made(|out| texere_cloth_yarns(cloth, out));
         let renderer = made(|out| texere_renderer_open(null(), 0, out));
         done(texere_renderer_show(renderer, yarns, null(), null()));
         let mut picture: texere_picture = sized();
         done(texere_picture_default(&mut picture));
-        (yarns, renderer, texere_picture { width: 60, height: 40, ..picture })
+        (program, yarns, renderer, texere_picture { width: 60, height: 40, ..picture })
     };
     let cut_out = texere_picture { background: TEXERE_BACKGROUND_NOTHING, ..picture };
     let mut writers: Vec<(&str, Path<'_>, Callback<'_>)> = Vec::new();
@@ -81,6 +89,8 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
     writer!("design.toml", texere_design_write(design), texere_design_write_to(design, toml));
     let wif = TEXERE_DESIGN_FORMAT_WIF;
     writer!("design.wif", texere_design_write(design), texere_design_write_to(design, wif));
+    let knitout = TEXERE_DESIGN_FORMAT_KNITOUT;
+    writer!("design.k", texere_design_write(program), texere_design_write_to(program, knitout));
     writer!("face.png", texere_design_draft(design, 0), texere_design_draft_to(design, 0));
     writer!("back.png", texere_design_draft(design, 1), texere_design_draft_to(design, 1));
     writer!("knit.png", texere_design_draft(knit, 0), texere_design_draft_to(knit, 0));

@@ -2,8 +2,8 @@
 //! meshes, saved yarns, designs, drafts and pictures.
 //!
 //! [`write`](mod@write) turns a mesh into a GLB or PLY file, whole or piece by piece as a device
-//! makes it. It also turns a woven design into a WIF draft or a design file, saves yarns, and draws
-//! drafts, charts and lapping diagrams.
+//! makes it. It also turns designs into WIF drafts, knitout files or design files, saves yarns, and
+//! draws drafts, charts and lapping diagrams.
 
 // A build without some formats still compiles the code that all formats share, and does not use all
 // of that code. A build with all formats has no unused code.

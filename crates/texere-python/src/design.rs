@@ -219,8 +219,10 @@ impl Design {
         Ok(Cloth::new(watch::quietly(py, |_| (*design).clone().placed(0.0))?, String::new()))
     }
 
-    /// Writes the design as a ``.toml`` design file or a ``.wif`` draft, which hold woven designs.
-    /// The file appears whole or not at all. Returns what the format leaves out, key by key.
+    /// Writes the design as a ``.toml`` design file, which holds woven cloth, knits that were read
+    /// from charts and pictures, and warp knits; as a ``.wif`` draft, which holds woven cloth; or as
+    /// a ``.k`` or ``.knitout`` file, which holds knits that were read from one. The file appears
+    /// whole or not at all. Returns what the format leaves out, key by key.
     ///
     /// >>> import tempfile, pathlib
     /// >>> folder = pathlib.Path(tempfile.mkdtemp())
@@ -231,9 +233,11 @@ impl Design {
     /// can't be written.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
         let design = self.design.clone();
-        let is_wif = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wif"));
-        watch::quietly(py, |_| {
-            if is_wif { texere::write::wif(&design, path) } else { texere::write::toml(&design, path) }
+        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+        watch::quietly(py, |_| match ending.as_ref().and_then(|ending| ending.to_str()) {
+            Some("wif") => texere::write::wif(&design, path),
+            Some("k" | "knitout") => texere::write::knitout(&design, path),
+            _ => texere::write::toml(&design, path),
         })
     }
 

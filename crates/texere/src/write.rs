@@ -12,7 +12,7 @@
 //! | write curves for a simulator that reads straight lines alone | [`Output::linear`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write centrelines for a simulator or a renderer | [`curves`], [`curves_to`] |
-//! | write a design that is read again | `wif`, `toml` (features of these names) |
+//! | write a design that is read again | `toml`; of woven cloth `wif`, of programs of knitting machines `knitout` (features of these names) |
 //! | write a draft as a picture | `draft`, `knit_draft`, `warp_draft` (feature `pictures`) |
 //! | write a picture | `picture` (feature `pictures`) |
 //! | write any file, or a folder of files, so that it appears whole or not at all | [`file()`], [`folder()`], [`vacant`] |
@@ -40,6 +40,8 @@ pub use texere_formats::write::{
     Side, draft, draft_to, knit_draft, knit_draft_to, knit_rows, picture, picture_to, warp_draft,
     warp_draft_to, warp_rows,
 };
+#[cfg(feature = "knitout")]
+pub use texere_formats::write::{knitout, knitout_to};
 #[cfg(feature = "toml")]
 pub use texere_formats::write::{toml, toml_to};
 #[cfg(feature = "wif")]

@@ -104,6 +104,8 @@ pub(crate) const KNITS: &[&str] = &[
      \"#ffffff\" = \"b\"\n\"#c81020\" = \"a\"\n[yarns.a]\ndiameter_mm = 0.2\n[yarns.b]\ntex = 20\n",
     "[knit]\nknitout = \"program.k\"\nyarns = [\"a\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n[knit.stitch_lengths_mm]\n70 = 5.5\n\
      [yarns.a]\ndiameter_mm = 0.2\n",
+    "[knit]\nchart = \"\"\"\nr w w\nwrr\n\"\"\"\nbacking = \"ladder\"\nwales_per_cm = 8\ncourses_per_cm = 10\n[knit.colors]\nr = \"a\"\n\
+     w = \"b\"\n[yarns.a]\ntex = 30\n[yarns.b]\ntex = 30\n",
     "[knit]\nimage = \"motif.png\"\nrows = \"first-pick-first\"\nyarns = [\"a\"]\nrepeat = [1, 3]\nwales_per_cm = 4\ncourses_per_cm = 20\n\
      [knit.colors]\n\"#000000\" = \"p\"\n\"#ffffff\" = \"k\"\n\"#c81020\" = \"m\"\n[finish]\nlength = 1.05\npress = 0.6\n[yarns.a]\ntex = 30\n",
     "[knit]\nchart = \"\"\"\nm m b\nu p b\nkpp\n\"\"\"\nbeds = 2\nyarns = [\"1 a\", \"1 a\"]\nrepeat = [3, 1]\nwales_per_cm = 5\n\

@@ -89,6 +89,7 @@ fn sinks(design: &Design) {
     };
     told(write::toml_to(design, sink()).map(drop));
     told(write::wif_to(design, sink()).map(drop));
+    told(write::knitout_to(design, sink()).map(drop));
     for side in [Side::Face, Side::Back] {
         match &design.structure {
             Structure::Woven(woven) => {

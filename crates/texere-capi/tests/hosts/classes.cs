@@ -58,6 +58,7 @@ static unsafe class Classes
         Check((uint)View.Parallel == Native.TEXERE_VIEW_PARALLEL, "View");
         Check((uint)Background.Nothing == Native.TEXERE_BACKGROUND_NOTHING, "Background");
         Check((uint)DesignFormat.Wif == Native.TEXERE_DESIGN_FORMAT_WIF, "DesignFormat");
+        Check((uint)DesignFormat.Knitout == Native.TEXERE_DESIGN_FORMAT_KNITOUT, "DesignFormat");
         Check((uint)MeshFormat.Ply == Native.TEXERE_FORMAT_PLY, "MeshFormat");
         Check((uint)MeshFormat.Stl == Native.TEXERE_FORMAT_STL, "MeshFormat");
         Check((uint)MeshFormat.Obj == Native.TEXERE_FORMAT_OBJ, "MeshFormat");

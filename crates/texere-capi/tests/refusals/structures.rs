@@ -61,7 +61,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_design_draft(own.design, 2, png, png_length));
     case!(cases, texere_design_draft_to(own.design, 2, Some(take_bytes), null_mut()));
     case!(cases, texere_design_draft_to(own.design, 0, None, null_mut()));
-    case!(cases, texere_design_write_to(own.design, 2, Some(take_bytes), null_mut()));
+    case!(cases, texere_design_write_to(own.design, 3, Some(take_bytes), null_mut()));
     case!(cases, texere_design_write_to(own.design, 0, None, null_mut()));
     for finish in [
         texere_finish { settle: 2, ..finish(own) },

@@ -161,7 +161,7 @@ fn a_warp_knit_by_arrays_is_that_of_its_text() {
         [[warp_knit.bars]]\nlapping = \"1-2/1-0//\"\nthreading = [\"a\", \"out\", \"bé\"]\nrun_in_mm = 1500.0\n\
         offset = 1\n";
     same(design, &read(&format!("{text}{YARNS}")));
-    let path = "none.toml";
+    let path = "none.wif";
     // SAFETY: the path lives as long as the call.
     let written = unsafe { texere_design_write(design, path.as_ptr().cast(), path.len()) };
     assert_eq!(written, TEXERE_UNSUPPORTED, "{}", message());

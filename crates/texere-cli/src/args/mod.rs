@@ -49,7 +49,7 @@ pub(crate) enum Command {
     Mesh(MeshArgs),
     /// Draw or print a design's draft, stitch chart or lappings
     Draft(DraftArgs),
-    /// Write a design as a WIF draft or as a design file
+    /// Write a design as a design file, a WIF draft or a knitout file
     Convert(ConvertArgs),
     /// Bake a design's cloth to maps that tile, with U3M and MaterialX documents
     Bake(BakeArgs),
@@ -160,11 +160,12 @@ pub(crate) struct DraftArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConvertArgs {
-    /// A woven design: a .toml design or a draft (.wif, .dtx, .wpo)
+    /// A .toml design, a draft (.wif, .dtx, .wpo) or a knitout program (.k)
     pub(crate) design: PathBuf,
-    /// The file to write: .wif, which other weaving programs read, or .toml, which holds everything
-    /// but the shaft draft
-    #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml"]))]
+    /// The file to write: .toml, which holds woven cloth without its shaft draft, knits from charts
+    /// and pictures, and warp knits; .wif, which other weaving programs read; or .k, for knits that
+    /// came from a knitout program
+    #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml", "k", "knitout"]))]
     pub(crate) output: PathBuf,
 }
 

@@ -117,6 +117,12 @@ impl WarpKnitted {
         self
     }
 
+    /// The number of control points of each lap.
+    #[must_use]
+    pub const fn cells(&self) -> Cells {
+        self.cells
+    }
+
     /// The guide bars, the front one first.
     #[must_use]
     pub fn bars(&self) -> &[Bar] {
@@ -139,6 +145,12 @@ impl WarpKnitted {
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// The sections that yarns refer to.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
     }
 
     /// Copies along x and y.

@@ -74,6 +74,12 @@ impl Knitted {
         self
     }
 
+    /// The number of control points of each stitch.
+    #[must_use]
+    pub const fn cells(&self) -> Cells {
+        self.cells
+    }
+
     /// The loops, and the order in which each yarn makes them.
     #[must_use]
     pub const fn stitches(&self) -> &Stitches {
@@ -96,6 +102,12 @@ impl Knitted {
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// The sections that yarns refer to.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
     }
 
     /// Copies of the repeat along x and y; \[1, 1\] for a cloth that does not repeat.

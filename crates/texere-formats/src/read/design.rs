@@ -103,6 +103,12 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
+    /// The program of a weft knit, with the file that it comes from. None for other designs, and for
+    /// a knit that a program made itself.
+    pub(crate) const fn knitted_from(&self) -> Option<&KnittedFrom> {
+        self.knitted_from.as_ref()
+    }
+
     /// The design with the keys of its file. If the design has keys already, they are those of a
     /// draft that the file names.
     pub(super) fn keyed(self, keys: Keys) -> Self {

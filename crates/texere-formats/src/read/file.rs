@@ -107,6 +107,6 @@ fn kind(metadata: &Metadata) -> &'static str {
 }
 
 /// The name of a design that has no title.
-pub(super) fn file_name(path: &Path) -> String {
+pub(crate) fn file_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| "design".into(), |stem| stem.to_string_lossy().into_owned())
 }

@@ -97,7 +97,7 @@ impl Knit {
                 .map_err(refused)?
                 .with_cells(self.cells);
         let design = Design::new(name, Structure::Weft(knitted), warnings);
-        Ok(design.knitted(KnittedFrom { drawn, program }, faults))
+        Ok(design.knitted(KnittedFrom { drawn, program, float_max: self.float_max }, faults))
     }
 }
 

@@ -57,6 +57,14 @@ use crate::yarns_file::ENDING;
 
 #[cfg(feature = "toml")]
 pub(crate) use design_file::limits;
+#[cfg(any(feature = "knitout", feature = "toml"))]
+pub(crate) use file::file_name;
+#[cfg(feature = "knitout")]
+pub(crate) use knitout::{
+    FILE_MAX as KNITOUT_BYTES_MAX, GAUGE as KNITOUT_PER_INCH, gauge as knitout_gauge, is_swg,
+    kept as knitout_text, of_carriers as knitout_yarns,
+};
+pub(crate) use knitted_from::{Drawn, KnittedFrom, Legend, ProgramHead, StitchSize};
 #[cfg(feature = "wif")]
 pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
 #[cfg(feature = "wif")]

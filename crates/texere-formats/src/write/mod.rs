@@ -9,8 +9,10 @@
 //! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |
 //!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
-//! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of woven designs as [WIF](fn@wif)
-//! or as texere's own [design file](fn@toml). texere reads both kinds of file again.
+//! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of designs: woven ones as
+//! [WIF](fn@wif), weft knits that came from knitout as [knitout](fn@knitout), and woven cloth,
+//! charts and warp knits as texere's own [design file](fn@toml). texere reads all three kinds of
+//! file again, and gets the same structure.
 //!
 //! Centrelines are written as [curves](fn@curves): BCC (`.bcc`) and USD's text form (`.usda`), for
 //! simulators and renderers.
@@ -43,7 +45,7 @@ mod beside;
 mod bounds;
 mod curve_format;
 mod curves;
-#[cfg(feature = "wif")]
+#[cfg(any(feature = "knitout", feature = "wif"))]
 mod design;
 #[cfg(feature = "pictures")]
 mod draft;
@@ -76,6 +78,8 @@ mod yarns;
 
 pub use curve_format::CurveFormat;
 pub use curves::{curves, curves_to};
+#[cfg(feature = "knitout")]
+pub use design::{knitout, knitout_to};
 #[cfg(feature = "toml")]
 pub use design::{toml, toml_to};
 #[cfg(feature = "wif")]

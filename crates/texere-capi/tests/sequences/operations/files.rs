@@ -29,7 +29,7 @@ pub(super) fn taking(caller: &mut Caller<'_>) -> (texere_write_callback, *mut c_
 pub(super) fn operations() -> Vec<Operation> {
     table! {
         texere_design_write_to, 2, |caller| {
-            let (design, format, (callback, user)) = (caller.handle(), caller.random.choice(2), taking(caller));
+            let (design, format, (callback, user)) = (caller.handle(), caller.random.choice(3), taking(caller));
             texere_design_write_to(design, format, callback, user)
         };
         texere_design_draft_to, 1, |caller| {

@@ -61,8 +61,8 @@ pub(crate) const DESIGNS: [&str; 4] = [
 ];
 
 /// Names of files in the test's folder. Other operations write files of the later kinds.
-const FILES: [&str; 9] =
-    ["a.toml", "a.wif", "a.yarns", "a.usda", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
+const FILES: [&str; 10] =
+    ["a.toml", "a.wif", "a.k", "a.yarns", "a.usda", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
 
 /// Reads a design from memory.
 pub(crate) unsafe fn read(text: &str, out: *mut *mut texere_design) -> texere_status {

@@ -96,16 +96,32 @@ impl Chart {
     /// the top, and the column, [`ChartError::Ragged`] with the row, and the errors of
     /// [`Chart::new`].
     pub fn parse(text: &str, beds: Beds) -> Result<Self, ChartError> {
+        let rows = Self::letters(text)?;
+        let wales = rows.first().map_or(0, Vec::len);
+        Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
+    }
+
+    /// The letters of a chart's text, row by row from the top. All rows have the same number of
+    /// letters. Spaces and empty lines have no meaning.
+    ///
+    /// **Errors**: [`ChartError::Ragged`] with the row, counted from 1 at the top.
+    ///
+    /// ```
+    /// use texere_fabric::weft::Chart;
+    /// assert_eq!(Chart::letters("r w\n\nww")?, [['r', 'w'], ['w', 'w']]);
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    pub fn letters(text: &str) -> Result<Vec<Vec<char>>, ChartError> {
         let rows: Vec<Vec<char>> = text
             .lines()
             .map(|line| line.chars().filter(|letter| !letter.is_whitespace()).collect())
             .filter(|row: &Vec<char>| !row.is_empty())
             .collect();
-        let wales = rows.first().map_or(0, Vec::len);
-        if let Some((row, other)) = (1..).zip(&rows).find(|(_, row)| row.len() != wales) {
-            return Err(ChartError::Ragged { row, wales: other.len(), first: wales });
+        let first = rows.first().map_or(0, Vec::len);
+        match (1..).zip(&rows).find(|(_, row)| row.len() != first) {
+            Some((row, other)) => Err(ChartError::Ragged { row, wales: other.len(), first }),
+            None => Ok(rows),
         }
-        Self::from_symbols(wales, rows.len(), beds, |column, row| rows[row][column])
     }
 
     /// A chart from the symbol at each column and row. Both are counted from 0, and rows from the
@@ -174,6 +190,56 @@ impl Chart {
         self.courses.len()
     }
 
+    /// The beds on which the chart is knitted.
+    #[must_use]
+    pub const fn beds(&self) -> Beds {
+        self.beds
+    }
+
+    /// The yarn of each course, by its number.
+    pub fn yarns(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        self.courses.iter().map(|course| course.yarn)
+    }
+
+    /// Number of rows of the drawing. A Jacquard has a course for each yarn of a row. A chart that
+    /// yarns repeat upwards has each row more than once.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.courses.last().map_or(0, |course| course.row as usize + 1)
+    }
+
+    /// The row of the drawing that a course comes from, counted from 0 at the bottom.
+    ///
+    /// **Panics** for a course past the last one.
+    #[must_use]
+    pub fn row(&self, course: usize) -> usize {
+        self.courses[course].row as usize
+    }
+
+    /// The cells of a course, from left to right. Courses are counted from 0 at the bottom.
+    ///
+    /// **Panics** for a course past the last one.
+    #[must_use]
+    pub fn course(&self, course: usize) -> &[Cell] {
+        &self.cells[course * self.wales..][..self.wales]
+    }
+
+    /// The symbols of a course as [`Chart::parse`] reads them. None if a loop moves in a way that
+    /// no symbol stands for.
+    ///
+    /// **Panics** for a course past the last one.
+    ///
+    /// ```
+    /// use texere_fabric::weft::{Beds, Chart};
+    /// let chart = Chart::parse("k p >RR rl Lt", Beds::One)?;
+    /// assert_eq!(chart.symbols(0).as_deref(), Some("kp>RRrlLt"));
+    /// # Ok::<(), texere_fabric::weft::ChartError>(())
+    /// ```
+    #[must_use]
+    pub fn symbols(&self, course: usize) -> Option<String> {
+        symbols::written(self.course(course))
+    }
+
     /// Puts another stitch into a cell. Wales are counted from 0 at the left, courses from 0 at the
     /// bottom.
     ///
@@ -200,16 +266,11 @@ impl Chart {
         Ok(())
     }
 
-    /// The cells of a course, from left to right.
-    fn course(&self, course: usize) -> &[Cell] {
-        &self.cells[course * self.wales..][..self.wales]
-    }
-
     /// The chart, if its beds can make all its stitches, every needle that gets loops also knits,
     /// and at least one needle knits.
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
-        let rows = self.courses.last().map_or(0, |course| course.row as usize + 1);
+        let rows = self.rows();
         // For the front and the back needle of each wale, whether the needle gets loops without
         // knitting, and whether it knits. On one bed the first entry counts for the whole wale.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;

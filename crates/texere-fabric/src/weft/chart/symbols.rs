@@ -1,4 +1,4 @@
-//! Reading one row of a chart's symbols.
+//! Reading and writing one row of a chart's symbols.
 
 use super::{Cell, ChartError};
 
@@ -57,4 +57,56 @@ pub(super) fn read(
         column += 1;
     }
     Ok(())
+}
+
+/// The symbols of `cells`, which are a row from left to right. None if a loop moves in a way that
+/// no symbol stands for.
+pub(super) fn written(cells: &[Cell]) -> Option<String> {
+    let (mut text, mut rest) = (String::new(), cells);
+    while let Some(&cell) = rest.first() {
+        // Cells that are alike are taken together, so that a long row of moved loops takes no more
+        // time for each of them than a short one.
+        let alike = rest.iter().take_while(|other| **other == cell).count();
+        let (before, after) = rest.split_at(alike);
+        rest = after;
+        let symbol = match cell {
+            Cell::Knit => 'k',
+            Cell::Purl => 'p',
+            Cell::Both => 'b',
+            Cell::Tuck => 't',
+            Cell::BackTuck => 'u',
+            Cell::Miss => 'm',
+            Cell::Moved { by, behind } => {
+                let [left, right] = cable(before.len(), by, behind, after).unwrap_or([0, 0]);
+                let single = match (by, behind) {
+                    (-1, false) => Some('<'),
+                    (1, false) => Some('>'),
+                    _ => None,
+                };
+                if left < alike {
+                    text.extend(std::iter::repeat_n(single?, alike - left));
+                }
+                let [one, other] = if behind { ['l', 'L'] } else { ['R', 'r'] };
+                text.extend(std::iter::repeat_n(one, left));
+                text.extend(std::iter::repeat_n(other, right));
+                rest = &after[right..];
+                continue;
+            }
+        };
+        text.extend(std::iter::repeat_n(symbol, alike));
+    }
+    Some(text)
+}
+
+/// The numbers of loops in both halves of a cable. Its left half are the last of `alike` loops that
+/// move by `by` needles. Its right half are the first cells of `after`. None if they are no cable.
+fn cable(alike: usize, by: i32, behind: bool, after: &[Cell]) -> Option<[usize; 2]> {
+    let Some(&Cell::Moved { by: back, behind: other }) = after.first() else { return None };
+    let (left, right) = (usize::try_from(-back).ok()?, usize::try_from(by).ok()?);
+    let half = after.get(..right)?;
+    let is_cable = (1..=alike).contains(&left)
+        && right > 0
+        && other != behind
+        && half.iter().all(|cell| *cell == half[0]);
+    is_cable.then_some([left, right])
 }

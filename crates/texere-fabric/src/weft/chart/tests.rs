@@ -36,6 +36,37 @@ fn courses_go_to_and_fro() {
     assert_eq!(carriers, [1, 2, 3, 1, 2, 3]);
 }
 
+/// Every row of up to four of these parts is written as it was read. Some parts next to one another
+/// have cells in common: a loop of `>` moves as the left half of `Rr` does.
+#[test]
+fn symbols_are_written_as_they_were_read() {
+    let parts = ["k", "t", "<", ">", "Rr", "lL", "RRr", "Rrr", "llL", "lLL", "RRRrr"];
+    let mut rows = vec![String::new()];
+    for _ in 0..4 {
+        rows = rows.iter().flat_map(|row| parts.iter().map(move |part| format!("{row}{part}"))).collect();
+        for row in &rows {
+            let chart = Chart::parse(&format!("{row}\n{}", "k".repeat(row.len())), Beds::One).unwrap();
+            assert_eq!(chart.symbols(1).as_deref(), Some(row.as_str()));
+        }
+    }
+    let two = Chart::parse("kpbtum", Beds::Two);
+    assert_eq!(two.unwrap_err(), ChartError::NeverKnits { wale: 4 });
+    let two = Chart::parse("kpbtum\nbbbbbb", Beds::Two).unwrap();
+    assert_eq!(two.symbols(1).as_deref(), Some("kpbtum"));
+    // Halves of a cable that lack a part, and moves that are no cable.
+    let moved = |by, behind| Cell::Moved { by, behind };
+    for cells in [
+        vec![moved(1, true), Cell::Knit],
+        vec![moved(-1, true), moved(1, true)],
+        vec![moved(2, false), moved(-1, true)],
+        vec![moved(1, false), moved(-1, true), moved(-1, true)],
+        vec![moved(0, false)],
+    ] {
+        let chart = Chart::new(cells.len(), Beds::One, cells).unwrap();
+        assert_eq!(chart.symbols(0), None);
+    }
+}
+
 #[test]
 fn loops_are_moved_to_the_bed_that_knits_them() {
     // The first round begins with the beds with which a round ends.

@@ -6,19 +6,10 @@ use texere_fabric::{BySet, Finish, Stretch};
 use toml::Spanned;
 
 use super::any::Any;
-use super::limits::{STRETCH, TIMES_MOST};
+use super::limits::{LENGTHS, PRESS_MM, STRETCH, TENSION_MOST, TIMES_MOST};
 use super::schema::FinishTable;
 use super::source::Source;
 use crate::read::ReadError;
-
-/// The least and the greatest factor for a yarn's length.
-const LENGTHS: (f64, f64) = (0.5, 2.0);
-
-/// The greatest tension that draws yarns in, as a share of their length in each pass of settling.
-const TENSION_MOST: f64 = 0.1;
-
-/// The least and the greatest distance of the two plates that press a knit, mm.
-const PRESS_MM: (f64, f64) = (0.001, 1000.0);
 
 impl FinishTable {
     /// Whether yarns settle (none if the table does not say), and the settings of their finish.
@@ -68,7 +59,7 @@ impl FinishTable {
         if let Some(press) = &self.press {
             let field = "finish.press";
             let gap = source.float(field, press, "the distance of two plates, a number of mm")?;
-            finish.press_mm = Some(source.number(field, &gap, PRESS_MM.0, PRESS_MM.1)? as f32);
+            finish.press_mm = Some(source.number(field, &gap, PRESS_MM[0], PRESS_MM[1])? as f32);
         }
         Ok((settle, finish))
     }
@@ -99,7 +90,7 @@ impl FinishTable {
                 (Some("free"), _) => Length::Free { tension: 0.0 },
                 (None, Some(factor)) => {
                     let factor = Spanned::new(given.span(), factor);
-                    Length::Given(source.number(field, &factor, LENGTHS.0, LENGTHS.1)? as f32)
+                    Length::Given(source.number(field, &factor, LENGTHS[0], LENGTHS[1])? as f32)
                 }
                 _ => {
                     let expected = "\"held\", \"free\" or how many times its length each yarn is to have";

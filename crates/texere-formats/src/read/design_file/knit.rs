@@ -1,11 +1,13 @@
 //! The `[knit]` table: a weft knit, from a chart or a picture, or from a knitout file.
 
 use std::ops::Range;
+use std::path::Path;
 
 use texere_fabric::Thread;
 use texere_fabric::weft::{Backing, Beds, Chart, ChartError, Gauge};
 use toml::Spanned;
 
+use super::limits::{LOOP_MM, PER_CM, PER_INCH};
 use super::schema::{DesignFile, KnitTable};
 use super::source::Source;
 use super::threads::{Named, YarnTable};
@@ -13,18 +15,9 @@ use super::{colors, knit_keys};
 use crate::read::error::first_few;
 use crate::read::file::file_name;
 use crate::read::knit::Knit;
-use crate::read::knitted_from::Drawn;
+use crate::read::knitted_from::{Drawn, Legend};
 use crate::read::point_paper::{PointPaper, RowOrder};
 use crate::read::{Design, ReadError};
-
-/// The least and the most wales or courses to the cm.
-pub(super) const PER_CM: (f64, f64) = (0.01, 1000.0);
-
-/// The least and the most needles to the inch.
-pub(super) const PER_INCH: (f64, f64) = (0.1, 100.0);
-
-/// The shortest and the longest loop, mm.
-pub(super) const LOOP_MM: (f64, f64) = (0.01, 1000.0);
 
 /// The greatest value of `float_max`, the number of needles that a yarn may float past without a
 /// warning.
@@ -68,6 +61,14 @@ pub(super) fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<
     }
 }
 
+/// The drawing that a chart was read from: a chart or an image.
+pub(super) struct Drawing<'a> {
+    pub(super) file: &'a Path,
+    pub(super) legend: Legend,
+    /// Whether the row on top is knitted first.
+    pub(super) upside_down: bool,
+}
+
 pub(super) struct Reader<'a> {
     pub(super) source: &'a Source<'a>,
     pub(super) table: &'a KnitTable,
@@ -85,26 +86,18 @@ impl Reader<'_> {
 
     fn chart(&self, name: String, text: &Spanned<String>) -> Result<Design, ReadError> {
         let table = self.table;
-        self.belongs(
-            "knit.image",
-            &[
-                ("knit.colors", table.colors.as_ref().map(Spanned::span)),
-                ("knit.rows", table.rows.as_ref().map(Spanned::span)),
-                ("knit.backing", table.backing.as_ref().map(Spanned::span)),
-            ],
-        )?;
+        self.belongs("knit.image", &[("knit.rows", table.rows.as_ref().map(Spanned::span))])?;
         self.without_stitch_lengths()?;
+        if let Some(colors) = &table.colors {
+            return self.letters(name, text, colors.as_ref());
+        }
+        self.belongs("knit.colors", &[("knit.backing", table.backing.as_ref().map(Spanned::span))])?;
         let refused = |error| self.refused("knit.chart", text.span(), error);
         let chart = Chart::parse(text.as_ref(), self.beds()?).map_err(refused)?;
-        let drawn = Drawn::Cells {
-            file: self.source.path.into(),
-            columns: chart.wales(),
-            rows: chart.courses(),
-            upside_down: false,
-        };
         let (turn, yarns) = self.yarns_in_turn()?;
         let chart = chart.with_yarns(&turn).map_err(refused)?;
-        self.charted(name, &chart, yarns, drawn, Vec::new())
+        let drawing = Drawing { file: self.source.path, legend: Legend::Stitches, upside_down: false };
+        self.charted(name, chart, yarns, drawing, Vec::new())
     }
 
     fn image(&self, name: String, image: &Spanned<String>) -> Result<Design, ReadError> {
@@ -126,33 +119,21 @@ impl Reader<'_> {
         let meant = colors::of_paper(source, &paper, "knit.colors", colors.as_ref(), &mut warnings)?
             .map_err(refused)?;
         let meant: Vec<_> = meant.into_iter().map(|meant| meant.as_ref().clone()).collect();
-        let (columns, rows) = (paper.ends, paper.picks);
-        let drawn = Drawn::Cells { file: path, columns, rows, upside_down };
         let fault = |error: ChartError| {
             // Rows of a chart count from its top row, which may be the bottom row of the image.
-            let error = if upside_down { error.from_below(rows) } else { error };
+            let error = if upside_down { error.from_below(paper.picks) } else { error };
             self.refused("knit.image", image.span(), error)
         };
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
+        let (columns, rows) = (paper.ends, paper.picks);
         if meant.iter().all(is_yarn) {
-            if let Some(span) =
-                table.yarns.as_ref().map(Spanned::span).or(table.beds.as_ref().map(Spanned::span))
-            {
-                let place = source.place("knit.yarns or knit.beds", span);
-                return Err(ReadError::Without { place, needs: "symbols in [knit.colors]" });
-            }
-            // The courses of a row come in the order of their yarns' names, so that the order does
-            // not depend on the image.
-            let mut names: Vec<&String> = meant.iter().collect();
-            names.sort_unstable();
-            names.dedup();
-            let numbers: Vec<u32> =
-                meant.iter().map(|name| names.binary_search(&name).unwrap_or(0) as u32).collect();
+            self.without_symbols("symbols in [knit.colors]")?;
+            let (yarns, numbers) = self.by_name(&meant);
             let yarn = |column, row| numbers[paper.color(column, row)];
-            let chart = Chart::jacquard(columns, rows, self.backing()?, yarn).map_err(fault)?;
-            let named = |name: &&String| self.yarns.thread(name).map(|thread| (name.to_string(), thread));
-            let yarns = names.iter().filter_map(named).collect();
-            self.charted(name, &chart, yarns, drawn, warnings)
+            let backing = self.backing()?;
+            let chart = Chart::jacquard(columns, rows, backing, yarn).map_err(fault)?;
+            let drawing = Drawing { file: &path, legend: Legend::Yarns(backing), upside_down };
+            self.charted(name, chart, yarns, drawing, warnings)
         } else {
             if let Some(backing) = &table.backing {
                 let place = source.place("knit.backing", backing.span());
@@ -176,17 +157,18 @@ impl Reader<'_> {
             let chart = Chart::from_symbols(columns, rows, self.beds()?, symbol).map_err(fault)?;
             let (turn, yarns) = self.yarns_in_turn()?;
             let chart = chart.with_yarns(&turn).map_err(fault)?;
-            self.charted(name, &chart, yarns, drawn, warnings)
+            let drawing = Drawing { file: &path, legend: Legend::Stitches, upside_down };
+            self.charted(name, chart, yarns, drawing, warnings)
         }
     }
 
     /// The design of a knit whose repeat is `chart`.
-    fn charted(
+    pub(super) fn charted(
         &self,
         name: String,
-        chart: &Chart,
+        chart: Chart,
         yarns: Vec<Named>,
-        drawn: Drawn,
+        drawing: Drawing<'_>,
         warnings: Vec<String>,
     ) -> Result<Design, ReadError> {
         let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
@@ -195,6 +177,8 @@ impl Reader<'_> {
         // names. Yarns that the chart does not reach have no carrier.
         program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
         let knit = self.knit(self.gauge(None)?, threads)?;
+        let Drawing { file, legend, upside_down } = drawing;
+        let drawn = Drawn::Cells { file: file.into(), chart, legend, upside_down };
         knit.design(self.source.path, name, program, drawn, warnings)
     }
 
@@ -218,7 +202,7 @@ impl Reader<'_> {
     /// knitout file, if any.
     pub(super) fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
         let (source, table) = (self.source, self.table);
-        let number = |field, value, (low, high)| source.optional(field, value, [low, high]);
+        let number = |field, value, range| source.optional(field, value, range);
         let wales = number("knit.wales_per_cm", &table.wales_per_cm, PER_CM)?;
         let courses = number("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
         let per_inch = number("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;
@@ -262,7 +246,7 @@ impl Reader<'_> {
         }
     }
 
-    fn backing(&self) -> Result<Option<Backing>, ReadError> {
+    pub(super) fn backing(&self) -> Result<Option<Backing>, ReadError> {
         match &self.table.backing {
             None => Ok(None),
             Some(backing) => match backing.as_ref().as_str() {
@@ -306,7 +290,7 @@ impl Reader<'_> {
         self.belongs("knit.knitout", &[("knit.stitch_lengths_mm", first)])
     }
 
-    fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {
+    pub(super) fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {
         match error {
             ChartError::OutOfMemory(error) => error.into(),
             source => ReadError::Chart { place: self.source.place(field, span), source },

@@ -4,14 +4,12 @@
 use texere_fabric::weft::Cells;
 use toml::Spanned;
 
+use super::limits::COPIES_MAX;
 use super::source::Source;
 use crate::read::ReadError;
 
 /// The least and the greatest share of its diameter that a yarn may keep between other yarns.
 const COMPRESSION: (f64, f64) = (0.8, 1.0);
-
-/// The most copies of a repeat in either direction.
-const COPIES_MAX: i64 = 1_000_000;
 
 /// The share of its diameter that a yarn keeps between other yarns.
 pub(super) fn compression(

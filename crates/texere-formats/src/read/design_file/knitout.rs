@@ -4,7 +4,8 @@ use std::ffi::OsStr;
 
 use toml::Spanned;
 
-use super::knit::{LOOP_MM, Reader};
+use super::knit::Reader;
+use super::limits::LOOP_MM;
 use crate::read::error::{first_few, named, shown};
 use crate::read::knitout::{self, LoopLengths};
 use crate::read::knitted_from::Drawn;
@@ -30,7 +31,7 @@ impl Reader<'_> {
                 let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
                 return Err(source.unfit(&field, size.span(), expected));
             };
-            let length = source.number(&field, length, LOOP_MM.0, LOOP_MM.1)?;
+            let length = source.number(&field, length, LOOP_MM[0], LOOP_MM[1])?;
             if lengths.insert(name, length).is_some() {
                 return Err(source.unfit(&field, size.span(), "each stitch size once, as a number"));
             }
@@ -58,7 +59,7 @@ impl Reader<'_> {
         let carriers = read.used_carriers().into_iter().map(of_carrier);
         let threads = carriers.map(|yarn| yarns[yarn as usize].1).collect();
         let gauge = self.gauge(read.gauge)?;
-        let drawn = Drawn::Lines { file: path };
+        let drawn = Drawn::Lines { file: path, head: read.head };
         let knit = self.knit(gauge, threads)?;
         knit.design(source.path, name, read.program, drawn, read.warnings)
     }

@@ -31,3 +31,36 @@ pub(crate) const TIMES_MOST: f64 = 10.0;
 
 /// The least and the greatest factor by which woven cloth is stretched.
 pub(crate) const STRETCH: [f64; 2] = [0.5, 2.0];
+
+/// The least and the greatest factor for a yarn's length, as `finish.length` gives it.
+pub(crate) const LENGTHS: [f64; 2] = [0.5, 2.0];
+
+/// The greatest tension that draws yarns in, as a share of their length in each pass of settling.
+pub(crate) const TENSION_MOST: f64 = 0.1;
+
+/// The least and the greatest distance of the two plates that press a knit, mm.
+pub(crate) const PRESS_MM: [f64; 2] = [0.001, 1000.0];
+
+/// The least and the most wales or courses to the cm.
+pub(crate) const PER_CM: [f64; 2] = [0.01, 1000.0];
+
+/// The least and the most needles to the inch.
+pub(crate) const PER_INCH: [f64; 2] = [0.1, 100.0];
+
+/// The shortest and the longest loop, mm.
+pub(crate) const LOOP_MM: [f64; 2] = [0.01, 1000.0];
+
+/// The most copies of a knit's repeat in either direction.
+pub(crate) const COPIES_MAX: i64 = 1_000_000;
+
+/// The least and the greatest draw-in of a warp knit: finished width over width on the needles.
+pub(crate) const DRAW_IN: [f64; 2] = [0.1, 2.0];
+
+/// The most needles by which a guide bar is offset.
+pub(crate) const OFFSET_MAX: i64 = 1 << 16;
+
+/// The most guides of a threading.
+pub(crate) const GUIDES_MAX: usize = 100_000;
+
+/// The most wales or courses of a piece of a warp knit.
+pub(crate) const SIDE_MAX: i64 = 1_000_000;

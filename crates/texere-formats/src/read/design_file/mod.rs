@@ -119,6 +119,7 @@ mod cloth;
 mod colors;
 mod design;
 mod finish;
+mod jacquard;
 mod knit;
 mod knit_keys;
 #[cfg(feature = "knitout")]

@@ -7,7 +7,8 @@ use texere_fabric::weft::Gauge;
 use texere_fabric::{FabricError, SPACING_MAX, SPACING_MIN, Structure, Thread};
 use toml::Spanned;
 
-use super::knit::{PER_CM, PER_INCH, without_weaving};
+use super::knit::without_weaving;
+use super::limits::{DRAW_IN, GUIDES_MAX, OFFSET_MAX, PER_CM, PER_INCH, SIDE_MAX};
 use super::schema::{BarTable, DesignFile, WarpKnitTable};
 use super::source::Source;
 use super::threads::YarnTable;
@@ -19,18 +20,6 @@ use crate::read::{Design, ReadError};
 
 /// The word of a threading for a guide without yarn.
 const OUT: &str = "out";
-
-/// The most guides of a threading.
-const GUIDES_MAX: usize = 100_000;
-
-/// The most needles by which a bar is offset.
-const OFFSET_MAX: i64 = 1 << 16;
-
-/// The most wales or courses of a piece.
-const SIDE_MAX: i64 = 1_000_000;
-
-/// The least and the greatest draw-in: finished width over width on the needles.
-const DRAW_IN: (f64, f64) = (0.1, 2.0);
 
 /// Reads the warp knit that `table` describes.
 pub(super) fn read(
@@ -68,7 +57,7 @@ pub(super) fn read(
 
 /// The gauge: how close loops lie.
 fn gauge(source: &Source<'_>, table: &WarpKnitTable) -> Result<Gauge, ReadError> {
-    let number = |key: &str, value: &Spanned<f64>, (low, high)| {
+    let number = |key: &str, value: &Spanned<f64>, [low, high]: [f64; 2]| {
         source.number(&format!("warp_knit.{key}"), value, low, high)
     };
     let wale_mm = match (&table.wales_per_cm, &table.needles_per_inch, &table.draw_in) {

@@ -37,25 +37,34 @@ const COLORS: [[u8; 3]; 8] = [
 /// each carrier.
 pub(crate) fn design(path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
     let read = knitout_file::read(path, files, &LoopLengths::new())?;
-    let gauge = Gauge::plain(read.gauge.unwrap_or(GAUGE));
-    let materials: Vec<_> = read
-        .program
-        .carriers
-        .iter()
-        .zip(&read.yarns)
-        .zip(COLORS.iter().cycle())
-        .map(|((carrier, yarn), &srgb)| {
-            let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
-            Material { name, srgb, ..Material::default() }
-        })
-        .collect();
-    let thread =
-        |material| Thread { material, ..Thread::new(0.0, (gauge.wale_mm / WALE_OF_DIAMETER / 2.0) as f32) };
-    let threads: Vec<_> = (0..materials.len() as u32).map(thread).collect();
+    let gauge = gauge(read.gauge);
+    let (threads, materials) = of_carriers(&read.program.carriers, &read.yarns, gauge);
     let (yarns, materials, sections) = Knit::yarns_of(threads, 1.0, &materials, &[Section::Circle]);
     let knit =
         Knit { gauge, yarns, materials, sections, copies: [1, 1], cells: Cells::Round, float_max: None };
-    let drawn = Drawn::Lines { file: path.into() };
+    let drawn = Drawn::Lines { file: path.into(), head: read.head };
     let design = knit.design(path, file_name(path), read.program, drawn, read.warnings);
     Ok(read.keys.placed(design)?.keyed(read.keys))
+}
+
+/// The gauge of a file alone. `needles` is the number of needles to the inch, if the file gives it.
+pub(crate) fn gauge(needles: Option<f64>) -> Gauge {
+    Gauge::plain(needles.unwrap_or(GAUGE))
+}
+
+/// The thread of each carrier of a file alone, and its material. `yarns` has the text of the header
+/// about the yarn in each carrier.
+pub(crate) fn of_carriers(
+    carriers: &[String],
+    yarns: &[Option<String>],
+    gauge: Gauge,
+) -> (Vec<Thread>, Vec<Material>) {
+    let material = |((carrier, yarn), &srgb): ((&String, &Option<String>), _)| {
+        let name = yarn.as_ref().map_or_else(|| carrier.clone(), |yarn| format!("{carrier}: {yarn}"));
+        Material { name, srgb, ..Material::default() }
+    };
+    let materials: Vec<_> = carriers.iter().zip(yarns).zip(COLORS.iter().cycle()).map(material).collect();
+    let radius_mm = (gauge.wale_mm / WALE_OF_DIAMETER / 2.0) as f32;
+    let thread = |material| Thread { material, ..Thread::new(0.0, radius_mm) };
+    ((0..materials.len() as u32).map(thread).collect(), materials)
 }

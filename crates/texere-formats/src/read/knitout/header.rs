@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::iter::Peekable;
 
 use super::carriers::{NAME, is_name};
-use super::limits::{CARRIERS_MAX, GAUGE, YARN_MAX};
+use super::limits::{CARRIERS_MAX, GAUGE, TEXT_MAX};
 use super::line::Line;
 use super::warnings::Warnings;
 use crate::read::ReadError;
 use crate::read::error::shown;
+use crate::read::knitted_from::{ProgramHead, StitchSize};
 
 /// The version of knitout that is read.
 const VERSION: u32 = 2;
@@ -36,6 +37,16 @@ pub(super) fn name(text: &str) -> Option<(&str, &str)> {
     Some((name.trim(), value.trim()))
 }
 
+/// Whether a machine is one of Shima Seiki's SWG machines, by its name.
+pub(crate) fn is_swg(machine: &str) -> bool {
+    machine.starts_with("SWG")
+}
+
+/// The value of a header as it is kept: at most [`TEXT_MAX`] letters, none of them a control code.
+pub(crate) fn kept(value: &str) -> String {
+    value.chars().filter(|letter| !letter.is_control()).take(TEXT_MAX).collect()
+}
+
 /// Whether knitout 2 has a header of this name.
 pub(super) fn is_known(name: &str) -> bool {
     matches!(name, "Machine" | "Gauge" | "Carriers" | "Position") || name.starts_with("Yarn-")
@@ -49,6 +60,8 @@ pub(super) struct Header<'a> {
     /// Number of needles to the inch, and the line of its header.
     pub(super) gauge: Option<(f64, usize)>,
     machine: Option<&'a str>,
+    /// The place of the knit on the bed, which makes no difference to the cloth.
+    position: Option<&'a str>,
     /// The yarn in each carrier, and the line of its header.
     yarns: HashMap<&'a str, (&'a str, usize)>,
 }
@@ -84,8 +97,7 @@ impl<'a> Header<'a> {
                 self.gauge = gauge.map(|gauge| (gauge, line.number));
             }
             "Machine" => self.machine = Some(value),
-            // The place on the bed makes no difference to the cloth.
-            "Position" => {}
+            "Position" => self.position = Some(value),
             _ => match name.strip_prefix("Yarn-") {
                 Some(carrier) => drop(self.yarns.insert(carrier, (value, line.number))),
                 None => {
@@ -97,12 +109,17 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
+    /// What the header says of the machine, with the sizes of the program's stitches.
+    pub(super) fn head(&self, sizes: Vec<StitchSize>) -> ProgramHead {
+        ProgramHead { machine: self.machine.map(kept), position: self.position.map(kept), sizes }
+    }
+
     /// The fractions of a rack at which back needles lie between front needles, so that both beds
     /// can knit at once. The fraction is 0.25 on Shima Seiki's SWG machines, for racks below 0 as
     /// well (-0.75), and 0.5 on other machines. If the file names no machine, both are allowed.
     pub(super) fn all_needle_racks(&self) -> &'static [f64] {
         match self.machine {
-            Some(machine) if machine.starts_with("SWG") => &[0.25],
+            Some(machine) if is_swg(machine) => &[0.25],
             Some(_) => &[0.5],
             None => &[0.25, 0.5],
         }
@@ -110,10 +127,8 @@ impl<'a> Header<'a> {
 
     /// The yarn in each of `carriers`. A yarn in any other carrier gives a warning.
     pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
-        let text = |(yarn, _): (&str, _)| {
-            yarn.chars().filter(|letter| !letter.is_control()).take(YARN_MAX).collect()
-        };
-        let yarns = carriers.iter().map(|carrier| self.yarns.remove(carrier.as_str()).map(text)).collect();
+        let yarn = |carrier: &String| self.yarns.remove(carrier.as_str()).map(|(yarn, _)| kept(yarn));
+        let yarns = carriers.iter().map(yarn).collect();
         if let Some((carrier, (_, line))) = self.yarns.iter().min_by_key(|(_, (_, line))| line) {
             let said = format!("a yarn in carrier \"{}\", which there is not", shown(carrier));
             warnings.once("yarn", *line, &said);

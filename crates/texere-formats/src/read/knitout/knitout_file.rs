@@ -15,11 +15,13 @@ use super::warnings::Warnings;
 use crate::read::ReadError;
 use crate::read::file::{Files, bytes_of};
 use crate::read::keys::{GAUGE, Keys};
+use crate::read::knitted_from::ProgramHead;
 
 /// A knitout file, read.
 #[derive(Debug)]
 pub(crate) struct KnitoutFile {
     pub(crate) program: Program,
+    pub(crate) head: ProgramHead,
     /// Number of needles to the inch, or none if the header does not say.
     pub(crate) gauge: Option<f64>,
     /// The text of the header about the yarn in each carrier of the program.
@@ -82,15 +84,16 @@ pub(super) fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<
         }
     }
     let unused_sizes = operations.unused_sizes();
-    let (program, undeclared) = operations.finish(&mut warnings);
+    let (program, sizes, undeclared) = operations.finish(&mut warnings);
     if undeclared && !program.carriers.is_empty() {
         let said = "no header \";;Carriers: \", which knitout asks for; carriers are those that occur, in that order";
         warnings.once("carriers", 1, said);
     }
     let gauge = header.gauge.map(|(gauge, _)| gauge);
     let keys = keys(path, header.gauge.map(|(_, line)| line), &program);
+    let head = header.head(sizes);
     let yarns = header.yarns_of(&program.carriers, &mut warnings);
-    Ok(KnitoutFile { program, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
+    Ok(KnitoutFile { program, head, gauge, yarns, warnings: warnings.list(), unused_sizes, keys })
 }
 
 /// The lines that errors of the cloth name: the line of the gauge, the first operation of each

@@ -1,7 +1,7 @@
 //! The limits of what a knitout file may hold.
 
 /// The largest knitout file that is read, bytes: ten million operations and more.
-pub(super) const FILE_MAX: u64 = 1 << 28;
+pub(crate) const FILE_MAX: u64 = 1 << 28;
 
 /// The most operations of a file. Some square metres of fine cloth have as many stitches.
 pub(super) const OPERATIONS_MAX: usize = 1 << 24;
@@ -16,8 +16,8 @@ pub(super) const NEEDLE_MAX: i32 = 1 << 16;
 /// The longest name of a carrier, in letters. Machines number their carriers.
 pub(super) const NAME_MAX: usize = 40;
 
-/// The longest text about a yarn that is kept, in letters.
-pub(super) const YARN_MAX: usize = 80;
+/// The longest text about a yarn, the machine or the place on its bed that is kept, in letters.
+pub(super) const TEXT_MAX: usize = 80;
 
 /// The fewest and the most needles to the inch that a header may say.
-pub(super) const GAUGE: [f64; 2] = [0.1, 100.0];
+pub(crate) const GAUGE: [f64; 2] = [0.1, 100.0];

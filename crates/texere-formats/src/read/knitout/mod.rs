@@ -24,7 +24,10 @@ mod tests;
 mod warnings;
 
 pub(super) use design::design;
+pub(crate) use design::{gauge, of_carriers};
+pub(crate) use header::{is_swg, kept};
 #[cfg(feature = "toml")]
 pub(super) use knitout_file::read;
+pub(crate) use limits::{FILE_MAX, GAUGE};
 #[cfg(feature = "toml")]
 pub(super) use loop_lengths::{LoopLengths, size};

@@ -12,6 +12,7 @@ use super::loop_lengths::{LoopLengths, size_of_numbers};
 use super::warnings::Warnings;
 use crate::read::ReadError;
 use crate::read::error::shown;
+use crate::read::knitted_from::StitchSize;
 
 /// The carrier set of an operation without yarns.
 const NO_CARRIERS: CarrierSet = CarrierSet(0);
@@ -27,6 +28,8 @@ pub(super) struct Operations<'a> {
     /// The fractions of a rack that stand for half a needle.
     all_needle_racks: &'static [f64],
     operations: Vec<Operation>,
+    /// The size of each operation that sets the size of stitches.
+    sizes: Vec<StitchSize>,
     /// The first stitch size without a length, with its line.
     unsized_first: Option<(String, usize)>,
     /// Whether another stitch size without a length occurs.
@@ -46,6 +49,7 @@ impl<'a> Operations<'a> {
             lengths,
             all_needle_racks,
             operations: Vec::new(),
+            sizes: Vec::new(),
             unsized_first: None,
             unsized_others: false,
             sized: BTreeSet::new(),
@@ -106,14 +110,14 @@ impl<'a> Operations<'a> {
             }
             "stitch" => {
                 let expected = "how far needles are drawn back, in units of the machine";
-                let sizes = [words.number(expected)?.0, words.number(expected)?.0];
+                let size = StitchSize::Drawn([words.number(expected)?.0, words.number(expected)?.0]);
                 words.end()?;
-                Some(self.stitch_size(line, &sizes))
+                Some(self.stitch_size(line, size)?)
             }
             "x-stitch-number" => {
                 let (number, _) = words.number("a number in the machine's table of stitches")?;
                 words.end()?;
-                Some(self.stitch_size(line, &[number]))
+                Some(self.stitch_size(line, StitchSize::Number(number))?)
             }
             "pause" => {
                 words.end()?;
@@ -175,15 +179,27 @@ impl<'a> Operations<'a> {
 
     /// The instruction for a stitch size. The loops after it get the length of this size, or no
     /// length of their own if the size has none.
-    fn stitch_size(&mut self, line: &Line<'_>, numbers: &[f64]) -> (Instruction, CarrierSet) {
-        let size = size_of_numbers(numbers);
+    fn stitch_size(
+        &mut self,
+        line: &Line<'_>,
+        size: StitchSize,
+    ) -> Result<(Instruction, CarrierSet), ReadError> {
+        let count = self.sizes.len();
+        if count == self.sizes.capacity() {
+            room_for(&mut self.sizes, count.max(16), "stitch sizes of a knitting machine")?;
+        }
+        self.sizes.push(size);
+        let size = match size {
+            StitchSize::Number(number) => size_of_numbers(&[number]),
+            StitchSize::Drawn(numbers) => size_of_numbers(&numbers),
+        };
         let length = self.lengths.get(&size).copied();
         match &self.unsized_first {
             _ if length.is_some() => drop(self.sized.insert(size)),
             None => self.unsized_first = Some((size, line.number)),
             Some((first, _)) => self.unsized_others |= *first != size,
         }
-        (Instruction::LoopLength(length), NO_CARRIERS)
+        Ok((Instruction::LoopLength(length), NO_CARRIERS))
     }
 
     /// Stitch sizes that have a length but occur in no operation.
@@ -209,8 +225,8 @@ impl<'a> Operations<'a> {
         Ok(())
     }
 
-    /// The program, and whether the header has no list of carriers.
-    pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, bool) {
+    /// The program, its stitch sizes, and whether the header has no list of carriers.
+    pub(super) fn finish(self, warnings: &mut Warnings) -> (Program, Vec<StitchSize>, bool) {
         match self.unsized_first {
             Some((size, line)) if !self.sized.is_empty() => {
                 let said = format!(
@@ -226,6 +242,7 @@ impl<'a> Operations<'a> {
             _ => {}
         }
         let (carriers, carrier_sets, undeclared) = self.carriers.finish();
-        (Program { carriers, carrier_sets, operations: self.operations, repeat: None }, undeclared)
+        let program = Program { carriers, carrier_sets, operations: self.operations, repeat: None };
+        (program, self.sizes, undeclared)
     }
 }

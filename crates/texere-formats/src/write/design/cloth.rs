@@ -5,6 +5,7 @@ use texere_core::Section;
 use texere_core::crossings::Set;
 use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
 
+use super::text::named;
 use crate::Design;
 
 /// The settings of a design's finish that differ from the defaults. Only settings of woven cloth
@@ -85,9 +86,4 @@ pub(super) fn cloth_keys(cloth: &Woven) -> Vec<String> {
     };
     let selvedge = cloth.selvedge().then(|| "selvedge = true".into());
     [shape, crimp, selvedge].into_iter().flatten().collect()
-}
-
-/// The texts whose condition holds.
-fn named(said: &[(bool, &str)]) -> Vec<String> {
-    said.iter().filter(|(so, _)| *so).map(|(_, what)| (*what).to_owned()).collect()
 }

@@ -1,27 +1,49 @@
-//! Writers of designs: WIF drafts, and texere's own design file.
+//! Writers of designs: WIF drafts, knitout files, and texere's own design file.
 
+#[cfg(feature = "wif")]
 mod cloth;
+#[cfg(any(feature = "knitout", feature = "toml"))]
+mod finish;
 mod format;
+#[cfg(feature = "wif")]
 mod interlacing;
+#[cfg(feature = "knitout")]
+mod knitout;
+#[cfg(any(feature = "knitout", feature = "toml"))]
+mod knitted;
 mod text;
 #[cfg(feature = "toml")]
 mod toml;
 #[cfg(feature = "toml")]
+mod toml_knit;
+#[cfg(feature = "toml")]
 mod toml_text;
+#[cfg(feature = "toml")]
+mod toml_warp;
+#[cfg(feature = "toml")]
+mod toml_weft;
+#[cfg(feature = "toml")]
+mod toml_woven;
+#[cfg(feature = "wif")]
 mod wif;
+#[cfg(feature = "wif")]
 mod wif_threads;
+#[cfg(feature = "wif")]
 mod woven;
 #[cfg(feature = "toml")]
 mod yarns;
 
 use std::io::Write;
 
+#[cfg(feature = "knitout")]
+use self::knitout::KnitoutFile;
 #[cfg(feature = "toml")]
 use self::toml::TomlFile;
+#[cfg(feature = "wif")]
+use self::wif::WifFile;
 use super::target::Target;
 use super::{Output, WriteError};
 use crate::Design;
-use wif::WifFile;
 
 /// Writes a woven design as a WIF 1.1 draft. Returns the parts that the file leaves out, each by
 /// its key in a design file.
@@ -51,6 +73,7 @@ use wif::WifFile;
 /// assert_eq!(written.drawdown(), given.drawdown());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[cfg(feature = "wif")]
 pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
     let output = output.into().ending("wif")?;
     let file = WifFile::new(design)?;
@@ -62,24 +85,28 @@ pub fn wif(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, Wr
 /// file.
 ///
 /// **Errors**: the errors of [`wif`](fn@wif), and [`WriteError::Writer`] if `out` refuses bytes.
+#[cfg(feature = "wif")]
 pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = WifFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
     Ok(file.left_out)
 }
 
-/// Writes a woven design as texere's own design file, which needs no other file beside it. Returns
-/// the parts that the file leaves out, each by its key or its name.
+/// Writes a design as texere's own design file, which needs no other file beside it. Returns the
+/// parts that the file leaves out, each by its key or its name.
 ///
-/// Reading the file gives an equal design: its drawdown, its threads with sizes, spacings, colours,
-/// sections and twist, the shape of the cloth, and its finish. The weaver's draft is left out; WIF
-/// files hold it. Yarns that share a name get numbers behind it.
+/// Reading the file gives an equal design. Of woven cloth these are its drawdown, its threads with
+/// sizes, spacings, colours, sections and twist, the shape of the cloth, and its finish. The
+/// weaver's draft is left out; WIF files hold it. A weft knit that came from a chart or a picture
+/// is written with a chart, which has letters for yarns if the picture is a Jacquard. A warp knit
+/// is written with its guide bars. Yarns are as thick as their compression has made them. Yarns
+/// that share a name get numbers behind it.
 ///
 /// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.toml`,
-/// [`WriteError::Unheld`] for a knit or a section that design files can't hold,
-/// [`WriteError::OutOfRange`] for a value that no design file may have,
-/// [`WriteError::TextTooLarge`] beyond 16 MiB, of which each crossing of the drawdown's repeat
-/// takes a byte, [`WriteError::Spared`], [`WriteError::Io`].
+/// [`WriteError::Unheld`] for a weft knit that came from no chart, for a Jacquard bar, and for a
+/// section that design files can't hold, [`WriteError::OutOfRange`] for a value that no design file
+/// may have, [`WriteError::TextTooLarge`] beyond 16 MiB, of which each crossing of the drawdown's
+/// repeat, or each cell of the chart, takes a byte, [`WriteError::Spared`], [`WriteError::Io`].
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -103,13 +130,61 @@ pub fn toml(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, W
     Ok(file.left_out)
 }
 
-/// Writes a woven design to `out` as texere's own design file: the bytes that [`toml`](fn@toml)
+/// Writes a design to `out` as texere's own design file: the bytes that [`toml`](fn@toml)
 /// writes to a file.
 ///
 /// **Errors**: the errors of [`toml`](fn@toml), and [`WriteError::Writer`] if `out` refuses bytes.
 #[cfg(feature = "toml")]
 pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
     let file = TomlFile::new(design)?;
+    file.write(Target::straight(out))?.done()?;
+    Ok(file.left_out)
+}
+
+/// Writes a weft knit as a program of a knitting machine, knitout 2. Returns the parts that the
+/// file leaves out, each by its key in a design file.
+///
+/// The knit must have come from a knitout file. Reading the written file gives the same operations
+/// on the same needles, with the same racks, carriers and stitch sizes, and so the same stitches.
+/// The number of needles to the inch and the names of yarns are in its header. Lines of the file
+/// have other numbers than those of the file that the knit came from, because comments and
+/// operations that do nothing are not kept.
+///
+/// **Errors**: [`WriteError::NotEnding`] if `output` ends in neither `.k` nor `.knitout`,
+/// [`WriteError::Unheld`] for woven cloth, for a warp knit, and for a weft knit that came from a
+/// chart or a picture: it is a repeat that goes on beyond its edges, and no machine can begin it.
+/// [`WriteError::TextTooLarge`] beyond 256 MiB, [`WriteError::Spared`], [`WriteError::Io`].
+///
+/// ```
+/// use std::io::ErrorKind;
+/// use texere_formats::{read_from, write};
+/// let jersey = ";!knitout-2\n;;Carriers: 1 2\n;;Gauge: 12\n;;Yarn-2: red wool\nin 2\ntuck - f2 2\ntuck - f1 2\n\
+///               x-stitch-number 60\nknit + f1 2\nknit + f2 2\nout 2\ndrop f1\ndrop f2\n";
+/// let none = |_: &std::path::Path| Err(ErrorKind::NotFound.into());
+/// let mut written = Vec::new();
+/// let left_out = write::knitout_to(&read_from("jersey.k", jersey, none)?, &mut written)?;
+/// assert!(left_out.is_empty());
+/// let again = read_from("jersey.k", written, none)?;
+/// assert_eq!(again.structure.knitted().unwrap().stitches().loops.len(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[cfg(feature = "knitout")]
+pub fn knitout(design: &Design, output: impl Into<Output>) -> Result<Vec<String>, WriteError> {
+    let output = output.into();
+    let output = output.clone().ending("knitout").or_else(|_| output.ending("k"))?;
+    let file = KnitoutFile::new(design)?;
+    file.write(Target::create(output)?)?.commit()?;
+    Ok(file.left_out)
+}
+
+/// Writes a weft knit to `out` as a program of a knitting machine: the bytes that
+/// [`knitout`](fn@knitout) writes to a file.
+///
+/// **Errors**: the errors of [`knitout`](fn@knitout), and [`WriteError::Writer`] if `out` refuses
+/// bytes.
+#[cfg(feature = "knitout")]
+pub fn knitout_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteError> {
+    let file = KnitoutFile::new(design)?;
     file.write(Target::straight(out))?.done()?;
     Ok(file.left_out)
 }

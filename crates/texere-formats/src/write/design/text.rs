@@ -1,4 +1,4 @@
-//! Text files of a limited size, and the numbers in them.
+//! Text files of a limited size, the numbers in them, and lists of what they leave out.
 
 use std::io::Write;
 
@@ -44,7 +44,7 @@ impl<W: Write> Text<W> {
 }
 
 /// Number of significant digits with which any two `f64` are written differently.
-const DIGITS: usize = 17;
+pub(super) const DIGITS: usize = 17;
 
 /// The number near `value` with the fewest digits, at most `digits`, for which `reads` holds.
 /// `reads` says whether a reader gets the value that is meant.
@@ -79,6 +79,11 @@ pub(super) fn within(
     } else {
         Err(WriteError::OutOfRange { format, field: field(), value, low, high })
     }
+}
+
+/// The texts whose condition holds.
+pub(super) fn named(said: &[(bool, &str)]) -> Vec<String> {
+    said.iter().filter(|(so, _)| *so).map(|(_, what)| (*what).to_owned()).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Texts in TOML.
+//! Texts and tables in TOML.
 
 use std::fmt::Write as _;
 
@@ -16,4 +16,9 @@ pub(super) fn quoted(text: &str) -> String {
         }
     }
     quoted + "\""
+}
+
+/// A table of `keys`, or an empty text if there are none.
+pub(super) fn table(name: &str, keys: &[String]) -> String {
+    if keys.is_empty() { String::new() } else { format!("\n[{name}]\n{}\n", keys.join("\n")) }
 }

@@ -11,7 +11,7 @@ use crate::write::WriteError;
 pub(super) fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a WovenDesign, WriteError> {
     let what = match &design.structure {
         Structure::Woven(woven) => return Ok(woven),
-        Structure::Weft(_) => "a weft knit, whose chart or program is not kept",
+        Structure::Weft(_) => "a weft knit",
         Structure::Warp(_) => "a warp knit",
         _ => "a structure of this kind",
     };

@@ -1,8 +1,9 @@
-//! The yarns of a design file: one for each kind of thread, by name.
+//! The yarns of a design file by name: one for each kind of thread, or for each yarn of a knit.
 
 use std::collections::{HashMap, HashSet};
 
 use texere_core::{Material, Section, SectionPoint};
+use texere_fabric::weft::KnitYarn;
 use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m};
 
 use super::super::WriteError;
@@ -27,7 +28,8 @@ pub(super) struct Yarns {
 }
 
 impl Yarns {
-    pub(super) fn new(cloth: &Woven) -> Result<Self, WriteError> {
+    /// The yarns of woven cloth: one for each kind of thread.
+    pub(super) fn of_cloth(cloth: &Woven) -> Result<Self, WriteError> {
         let (warp, weft) = (cloth.warp(), cloth.weft());
         let thread = |number: usize| {
             warp.get(number).or_else(|| weft.get(number - warp.len())).copied().unwrap_or(warp[0])
@@ -38,19 +40,51 @@ impl Yarns {
             ([radius_mm, flatness, stiffness, twist].map(f32::to_bits), material, section)
         };
         let kinds = Kinds::new(warp.len() + weft.len(), key);
+        Self::new(kinds, warp.len(), thread, cloth.materials(), cloth.sections(), |_| true)
+    }
+
+    /// The yarns of a knit, each with a name of its own. `is_yarn` says whether a yarn may have a
+    /// name.
+    pub(super) fn of_knit(
+        yarns: &[KnitYarn],
+        materials: &[Material],
+        sections: &[Section],
+        is_yarn: fn(&str) -> bool,
+    ) -> Result<Self, WriteError> {
+        let thread = |number: usize| {
+            let KnitYarn { radius_mm, material, section, twist } = yarns[number];
+            Thread { material, section, twist, ..Thread::new(0.0, radius_mm) }
+        };
+        let kinds = Kinds::new(yarns.len(), |number| number);
+        Self::new(kinds, 0, thread, materials, sections, is_yarn)
+    }
+
+    fn new(
+        kinds: Kinds,
+        ends: usize,
+        thread: impl Fn(usize) -> Thread,
+        materials: &[Material],
+        sections: &[Section],
+        is_yarn: fn(&str) -> bool,
+    ) -> Result<Self, WriteError> {
         let (mut names, mut tables, mut renamed) = (Vec::new(), Vec::new(), None);
-        let mut given = Names::default();
+        let mut given = Names { is_yarn, taken: HashSet::new(), last: HashMap::new() };
         for first in &kinds.firsts {
             let thread = thread(*first);
-            let material = &cloth.materials()[thread.material as usize];
+            let material = &materials[thread.material as usize];
             let name = given.give(&material.name);
             if name != material.name {
                 renamed.get_or_insert_with(|| [material.name.clone(), name.clone()]);
             }
-            tables.push(table(&name, &thread, material, &cloth.sections()[thread.section as usize])?);
+            tables.push(table(&name, &thread, material, &sections[thread.section as usize])?);
             names.push(name);
         }
-        Ok(Self { names, kinds, ends: warp.len(), tables, renamed, taken: given.taken })
+        Ok(Self { names, kinds, ends, tables, renamed, taken: given.taken })
+    }
+
+    /// The name of each yarn.
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// The tables, each with its heading.
@@ -67,8 +101,7 @@ impl Yarns {
     pub(super) fn set(&self, name: &str, threads: &[Thread]) -> Result<String, WriteError> {
         let (ends, picks) = self.kinds.of.split_at(self.ends);
         let kinds = if name == "warp" { ends } else { picks };
-        let turn: Vec<_> = kinds[..period(kinds)].chunk_by(|one, other| one == other).collect();
-        let items: Vec<_> = turn.iter().flat_map(|run| self.items(run[0], run.len())).collect();
+        let items = self.items_of(&kinds[..period(kinds)]);
         for (number, thread) in (1..).zip(threads) {
             let field = || format!("{name}.spacing_mm, number {number},");
             within(FORMAT, field, thread.spacing_mm, limits::LENGTH_MM)?;
@@ -81,9 +114,14 @@ impl Yarns {
         Ok(format!("\n[{name}]\nyarns = [{}]\n{spacing}\n", items.join(", ")))
     }
 
+    /// The items of a list of yarns in turn.
+    pub(super) fn items_of(&self, yarns: &[u32]) -> Vec<String> {
+        yarns.chunk_by(|one, other| one == other).flat_map(|run| self.items(run[0], run.len())).collect()
+    }
+
     /// The items for `times` threads of one yarn: one item with a number, or an item for each
     /// thread if the item with a number is another yarn's name.
-    fn items(&self, yarn: u32, times: usize) -> Vec<String> {
+    pub(super) fn items(&self, yarn: u32, times: usize) -> Vec<String> {
         let name = &self.names[yarn as usize];
         let counted = format!("{times} {name}");
         if times == 1 || self.taken.contains(&counted) {
@@ -95,8 +133,9 @@ impl Yarns {
 }
 
 /// The names that have been given, each once.
-#[derive(Default)]
 struct Names {
+    /// Whether a yarn may have a name.
+    is_yarn: fn(&str) -> bool,
     taken: HashSet<String>,
     /// The last number that was tried behind each name.
     last: HashMap<String, usize>,
@@ -104,12 +143,12 @@ struct Names {
 
 impl Names {
     /// Returns `name` without space around it, or `yarn` for an empty name. A number follows if
-    /// another yarn has that name.
+    /// another yarn has that name, or if no yarn may have it.
     fn give(&mut self, name: &str) -> String {
         let name = if name.trim().is_empty() { "yarn" } else { name.trim() };
         let mut own = name.to_owned();
         let last = self.last.entry(own.clone()).or_insert(1);
-        while !self.taken.insert(own.clone()) {
+        while !(self.is_yarn)(&own) || !self.taken.insert(own.clone()) {
             *last += 1;
             own = format!("{name} ({last})");
         }

@@ -1,0 +1,49 @@
+//! The settings of a knit's finish that differ from the defaults.
+
+use texere_core::settling::Length;
+use texere_fabric::Finish;
+
+use crate::Design;
+
+/// The value of a key of `[finish]`.
+pub(super) enum Setting {
+    /// A word.
+    Word(&'static str),
+    /// A number.
+    Number(f32),
+}
+
+/// The settings of a knit's finish that differ from the defaults. Settings of woven cloth, and
+/// settings that only a program can ask for, have no keys in a knit.
+pub(super) struct KnitFinish {
+    /// Keys of knits, each with its value. `settle` is not among them.
+    pub(super) keys: Vec<(&'static str, Setting)>,
+    /// Settings without a key for knits, in words.
+    pub(super) unsaid: Vec<String>,
+}
+
+impl KnitFinish {
+    pub(super) fn new(design: &Design) -> Self {
+        let Finish { length, press_mm, passes, record, taut, calender } = design.finish;
+        let usual = Finish::default();
+        let mut keys = match length {
+            None => Vec::new(),
+            Some(Length::Held) => vec![("length", Setting::Word("held"))],
+            Some(Length::Given(times)) => vec![("length", Setting::Number(times))],
+            Some(Length::Free { tension }) => {
+                let tension = (tension != 0.0).then_some(("tension", Setting::Number(tension)));
+                [("length", Setting::Word("free"))].into_iter().chain(tension).collect()
+            }
+        };
+        keys.extend(press_mm.map(|mm| ("press", Setting::Number(mm))));
+        let unsaid = [
+            (taut.warp != usual.taut.warp, "finish.warp_tension, which only woven cloth has"),
+            (taut.weft != usual.taut.weft, "finish.weft_tension, which only woven cloth has"),
+            (calender != usual.calender, "finish.calender, which only woven cloth has"),
+            (design.stretch.is_some(), "finish.stretch, which only woven cloth has"),
+            (passes != usual.passes, "the most passes of settling"),
+            (record != usual.record, "whether the course of settling is kept"),
+        ];
+        Self { keys, unsaid: super::text::named(&unsaid) }
+    }
+}

@@ -138,6 +138,9 @@ pub const TEXERE_DESIGN_FORMAT_WIF: u32 = 1;
 /// The form of a knitout file, `.k`.
 pub const TEXERE_DESIGN_FORMAT_KNITOUT: u32 = 2;
 
+/// Writes a design to a callback. Returns what the file leaves out.
+type DesignWriter = fn(&Design, CallbackFile) -> Result<Vec<String>, WriteError>;
+
 /// Writes a design, not to a file but to `callback`, which gets the bytes that
 /// `texere_design_write` would write. `format` is a constant whose name begins with
 /// TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
@@ -156,8 +159,7 @@ pub unsafe extern "C" fn texere_design_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let writers: [fn(&Design, CallbackFile) -> Result<Vec<String>, WriteError>; 3] =
-            [write::toml_to, write::wif_to, write::knitout_to];
+        let writers: [DesignWriter; 3] = [write::toml_to, write::wif_to, write::knitout_to];
         let write = choice("format", format, &writers)?;
         let design = get(design)?;
         write(&design, file)?;

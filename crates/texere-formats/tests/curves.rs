@@ -222,10 +222,10 @@ fn curves_of_usd_are_the_splines_of_the_yarns() {
                 }
                 // Catmull-Rom curves have one width for each vertex, the ends twice; others have
                 // one at each end of an interval.
-                let radii = points.iter().map(|point| 2.0 * point.half_width());
+                let mut radii = points.iter().map(|point| 2.0 * point.half_width());
                 let expected: Vec<_> = match (basis, is_closed) {
                     ("catmullRom", false) => {
-                        radii.clone().take(1).chain(radii.clone()).chain(radii.last()).collect()
+                        radii.clone().take(1).chain(radii.clone()).chain(radii.next_back()).collect()
                     }
                     ("catmullRom", true) => radii.collect(),
                     (_, false) => radii.collect(),

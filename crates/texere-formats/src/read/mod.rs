@@ -57,6 +57,8 @@ use crate::yarns_file::ENDING;
 
 #[cfg(feature = "toml")]
 pub(crate) use design_file::limits;
+#[cfg(feature = "wif")]
+pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
 #[cfg(any(feature = "knitout", feature = "toml"))]
 pub(crate) use file::file_name;
 #[cfg(feature = "knitout")]
@@ -65,8 +67,6 @@ pub(crate) use knitout::{
     kept as knitout_text, of_carriers as knitout_yarns,
 };
 pub(crate) use knitted_from::{Drawn, KnittedFrom, Legend, ProgramHead, StitchSize};
-#[cfg(feature = "wif")]
-pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
 #[cfg(feature = "wif")]
 pub(crate) use wif::{PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM};
 

@@ -14,6 +14,7 @@ mod outputs;
 mod packed;
 mod pieces;
 mod ply;
+mod programs;
 mod random_designs;
 mod random_knits;
 mod stl;

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use texere_formats::read_from;
 
-use crate::knits::{check_knitout, check_toml, colors, from_text, picture};
+use crate::knits::{check_toml, colors, from_text, picture};
+use crate::programs::check_knitout;
 
 /// Yarns with names and numbers that need care.
 const YARNS: &str = "[yarns.a]\ntex = 20\n[yarns.\"2 a\"]\ntex = 31.7\ndensity = 1.3\nplies = 2\n\

@@ -68,7 +68,7 @@
 //!
 //! | key | value |
 //! |---|---|
-//! | `chart` | symbols, a line for each row, the last on top ([`Chart::parse`]) |
+//! | `chart` | symbols, a line for each row, the last on top ([`Chart::parse`]); with `[knit.colors]` letters, each of which is a yarn ([`Chart::jacquard`]) |
 //! | `image`, `[knit.colors]`, `rows` | a picture beside the design: each colour a yarn ([`Chart::jacquard`]) or a symbol |
 //! | `knitout` | a program of a knitting machine beside the design |
 //! | `beds`, `backing` | 1 or 2 ([`Beds`]); `"birdseye"` or `"ladder"` ([`Backing`]) |

@@ -82,6 +82,9 @@
 // The form of a WIF 1.1 draft, `.wif`.
 #define TEXERE_DESIGN_FORMAT_WIF 1
 
+// The form of a knitout file, `.k`.
+#define TEXERE_DESIGN_FORMAT_KNITOUT 2
+
 // The structure's own choice. A weft knit gets the loop lengths of its program or its gauge; if it
 // has neither, its lengths are free. A warp knit gets the lengths of its run-ins; if a bar with
 // yarns has none, yarns keep their lengths.
@@ -1398,24 +1401,27 @@ enum texere_status texere_design_read_memory(const char *name,
                                              void *user,
                                              struct texere_design **out);
 
-// Writes a design of woven cloth to a file that `texere_design_read` reads. The ending of `path`
-// says which: `.toml` for texere's own design file, `.wif` for a WIF 1.1 draft, which leaves out
-// what drafts don't have. An existing file of that name is replaced only once the new one is
+// Writes a design to a file that `texere_design_read` reads. The ending of `path` says which:
+// `.toml` for texere's own design file, which holds woven cloth, weft knits that were read from a
+// chart or a picture, and warp knits; `.wif` for a WIF 1.1 draft, which holds woven cloth, and
+// leaves out what drafts don't have; `.k` or `.knitout` for a knitout file, which holds weft knits
+// that were read from one. An existing file of that name is replaced only once the new one is
 // complete.
 //
-// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a knit, and with
-// TEXERE_IO if the file can't be written.
+// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the file
+// can't hold, and with TEXERE_IO if the file can't be written.
 enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);
 
-// Writes a design of woven cloth, not to a file but to `callback`, which gets the bytes that
+// Writes a design, not to a file but to `callback`, which gets the bytes that
 // `texere_design_write` would write. `format` is a constant whose name begins with
 // TEXERE_DESIGN_FORMAT. The callback runs on the calling thread, with `user` as its first
 // argument.
 //
-// Fails with TEXERE_UNSUPPORTED for a knit, and with TEXERE_CANCELLED if the callback returned a
-// number other than 0. The bytes that the callback had been given by then are not a complete file.
+// Fails with TEXERE_UNSUPPORTED for a design that the format can't hold, and with TEXERE_CANCELLED
+// if the callback returned a number other than 0. The bytes that the callback had been given by
+// then are not a complete file.
 enum texere_status texere_design_write_to(const struct texere_design *design,
                                           uint32_t format,
                                           texere_write_callback callback,

@@ -89,8 +89,6 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
     writer!("design.toml", texere_design_write(design), texere_design_write_to(design, toml));
     let wif = TEXERE_DESIGN_FORMAT_WIF;
     writer!("design.wif", texere_design_write(design), texere_design_write_to(design, wif));
-    let knitout = TEXERE_DESIGN_FORMAT_KNITOUT;
-    writer!("design.k", texere_design_write(program), texere_design_write_to(program, knitout));
     writer!("face.png", texere_design_draft(design, 0), texere_design_draft_to(design, 0));
     writer!("back.png", texere_design_draft(design, 1), texere_design_draft_to(design, 1));
     writer!("knit.png", texere_design_draft(knit, 0), texere_design_draft_to(knit, 0));
@@ -108,6 +106,8 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         texere_renderer_write(renderer, &cut_out, null()),
         texere_renderer_write_to(renderer, &cut_out, null())
     );
+    let knitout = TEXERE_DESIGN_FORMAT_KNITOUT;
+    writer!("design.k", texere_design_write(program), texere_design_write_to(program, knitout));
     let folder = tempfile::tempdir().unwrap();
     let mut seen = Vec::new();
     for (name, path, callback) in &writers {

@@ -6,9 +6,9 @@ use std::io::ErrorKind;
 use image::{Rgb, RgbImage};
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
-use texere_fabric::weft::{Chart, Gauge, KnitYarn, Knitted, Machine, Step, Stitches};
-use texere_fabric::{Finish, Relief, Structure, Thread, Weave, Woven, WovenDesign};
-use texere_formats::{Design, ReadError, WriteError, read, read_from, write};
+use texere_fabric::weft::{Chart, Gauge, KnitYarn, Knitted, Machine};
+use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+use texere_formats::{Design, ReadError, WriteError, read_from, write};
 
 use crate::designs::again;
 use crate::programs::PROGRAM;

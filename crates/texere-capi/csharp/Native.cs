@@ -524,8 +524,8 @@ namespace Texere
         ///  that were read from one. An existing file of that name is replaced only once the new one is
         ///  complete.
         ///
-        ///  Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the file
-        ///  can't hold, and with TEXERE_IO if the file can't be written.
+        ///  Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
+        ///  file can't hold, and with TEXERE_IO if the file can't be written.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_design_write", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_design_write(texere_design* design, byte* path, System.UIntPtr path_length);

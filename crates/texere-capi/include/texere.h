@@ -1408,8 +1408,8 @@ enum texere_status texere_design_read_memory(const char *name,
 // that were read from one. An existing file of that name is replaced only once the new one is
 // complete.
 //
-// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the file
-// can't hold, and with TEXERE_IO if the file can't be written.
+// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
+// file can't hold, and with TEXERE_IO if the file can't be written.
 enum texere_status texere_design_write(const struct texere_design *design,
                                        const char *path,
                                        size_t path_length);

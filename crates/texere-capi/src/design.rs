@@ -105,8 +105,8 @@ pub unsafe extern "C" fn texere_design_read_memory(
 /// that were read from one. An existing file of that name is replaced only once the new one is
 /// complete.
 ///
-/// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the file
-/// can't hold, and with TEXERE_IO if the file can't be written.
+/// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
+/// file can't hold, and with TEXERE_IO if the file can't be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_design_write(
     design: *const texere_design,

@@ -220,9 +220,9 @@ impl Design {
     }
 
     /// Writes the design as a ``.toml`` design file, which holds woven cloth, knits that were read
-    /// from charts and pictures, and warp knits; as a ``.wif`` draft, which holds woven cloth; or as
-    /// a ``.k`` or ``.knitout`` file, which holds knits that were read from one. The file appears
-    /// whole or not at all. Returns what the format leaves out, key by key.
+    /// from charts and pictures, and warp knits; as a ``.wif`` draft, which holds woven cloth; or
+    /// as a ``.k`` or ``.knitout`` file, which holds knits that were read from one. The file
+    /// appears whole or not at all. Returns what the format leaves out, key by key.
     ///
     /// >>> import tempfile, pathlib
     /// >>> folder = pathlib.Path(tempfile.mkdtemp())

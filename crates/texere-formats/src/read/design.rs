@@ -103,8 +103,8 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The program of a weft knit, with the file that it comes from. None for other designs, and for
-    /// a knit that a program made itself.
+    /// The program of a weft knit, with the file that it comes from. None for other designs, and
+    /// for a knit that a program made itself.
     pub(crate) const fn knitted_from(&self) -> Option<&KnittedFrom> {
         self.knitted_from.as_ref()
     }

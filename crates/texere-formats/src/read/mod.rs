@@ -70,9 +70,9 @@ pub(crate) use knitted_from::{Drawn, KnittedFrom, Legend, ProgramHead, StitchSiz
 #[cfg(feature = "wif")]
 pub(crate) use wif::{PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM};
 
-/// Reads the design in `path`: a draft of a weaving program (WIF, `.wif` or `.wifw`; Fiberworks PCW,
-/// `.dtx`; WeavePoint, `.wpo`; feature `wif`), a program of a knitting machine (knitout, `.k` or
-/// `.knitout`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
+/// Reads the design in `path`: a draft of a weaving program (WIF, `.wif` or `.wifw`; Fiberworks
+/// PCW, `.dtx`; WeavePoint, `.wpo`; feature `wif`), a program of a knitting machine (knitout, `.k`
+/// or `.knitout`, feature `knitout`), or texere's own design file (`.toml`, feature `toml`).
 ///
 /// **Errors**: [`ReadError`]. It names file, line, field, value and limit as far as they apply. A
 /// kind of file that this build was made without is [`ReadError::Feature`].

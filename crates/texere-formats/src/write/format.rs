@@ -28,9 +28,9 @@ pub enum Format {
     /// for it.
     PackedGlb,
     /// The packed form of glTF 2.0 binary, compressed: 6 to 7 bytes for a vertex, and a byte or two
-    /// for a triangle of the longest yarn instead of 12. `EXT_meshopt_compression` is the extension.
-    /// Positions are those of the packed form. Normals are off by 0.9 degrees at most. Unpacked, the
-    /// file has up to 4 GiB.
+    /// for a triangle of the longest yarn instead of 12. `EXT_meshopt_compression` is the
+    /// extension. Positions are those of the packed form. Normals are off by 0.9 degrees at most.
+    /// Unpacked, the file has up to 4 GiB.
     ///
     /// The bytes are gathered before they are written. Beyond some megabytes they lie in unnamed
     /// files beside the output, or in the system's folder for such files.

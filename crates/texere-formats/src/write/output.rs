@@ -178,8 +178,8 @@ impl Output {
     /// again before the rename.
     ///
     /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed,
-    /// compressed or linear, [`WriteError::Spared`], and [`WriteError::Io`] if there is no such folder, if the path is no
-    /// file that may be replaced, or if a spared file can't be looked at.
+    /// compressed or linear, [`WriteError::Spared`], and [`WriteError::Io`] if there is no such
+    /// folder, if the path is no file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }

@@ -1,5 +1,5 @@
-//! Knits as knitout files: a knit that is written and read again has the same stitches, and the file
-//! has the operations of the file that the knit came from, word by word.
+//! Knits as knitout files: a knit that is written and read again has the same stitches, and the
+//! file has the operations of the file that the knit came from, word by word.
 
 use texere_core::Material;
 use texere_fabric::Finish;

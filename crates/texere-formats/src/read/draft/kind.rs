@@ -11,7 +11,7 @@ use crate::read::{Design, ReadError, dtx, wif, wpo};
 
 /// A kind of draft, by the program that saves it.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::read) enum DraftKind {
+pub(crate) enum DraftKind {
     /// WIF, of many programs.
     Wif,
     /// Fiberworks PCW.
@@ -23,10 +23,10 @@ pub(in crate::read) enum DraftKind {
 impl DraftKind {
     /// The endings of drafts, as errors list them.
     #[cfg(feature = "toml")]
-    pub(in crate::read) const ENDINGS: &str = ".dtx, .wpo, .wifw or .wif";
+    pub(crate) const ENDINGS: &str = ".dtx, .wpo, .wifw or .wif";
 
     /// The kind of the draft in `path` by its ending, or none if drafts do not end so.
-    pub(in crate::read) fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn of(path: &Path) -> Option<Self> {
         match path.extension()?.to_ascii_lowercase().to_str()? {
             // WeaveIt gives its WIF files the second ending.
             "wif" | "wifw" => Some(Self::Wif),
@@ -37,7 +37,7 @@ impl DraftKind {
     }
 
     /// The design of a draft alone. A draft has no finish, so its yarns do not settle.
-    pub(in crate::read) fn design(self, path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
+    pub(crate) fn design(self, path: &Path, files: &Files<'_>) -> Result<Design, ReadError> {
         let draft = self.read(path, files)?;
         let woven = WovenDesign::new(draft.woven, Some(draft.draft), Relief::Report);
         let woven = draft.keys.placed(woven.map_err(|source| ReadError::fabric(path, source)))?;
@@ -45,7 +45,7 @@ impl DraftKind {
     }
 
     /// The draft in `path`.
-    pub(in crate::read) fn read(self, path: &Path, files: &Files<'_>) -> Result<LoomDraft, ReadError> {
+    pub(crate) fn read(self, path: &Path, files: &Files<'_>) -> Result<LoomDraft, ReadError> {
         let bytes = bytes_of(files, path, FILE_MAX)?;
         match self {
             Self::Wif => wif::draft(path, &bytes),

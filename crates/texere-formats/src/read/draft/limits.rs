@@ -5,7 +5,7 @@
 pub(crate) const FILE_MAX: u64 = 1 << 28;
 
 /// The most threads of a warp or weft.
-pub(in crate::read) const THREADS_MAX: u32 = 1_000_000;
+pub(crate) const THREADS_MAX: u32 = 1_000_000;
 
 /// The least and the greatest spacing or thickness that is allowed, mm. A design file has the same
 /// limits.

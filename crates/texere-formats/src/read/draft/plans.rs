@@ -8,18 +8,18 @@ use crate::read::ReadError;
 
 /// The plans of a draft: which shafts carry each end, and how picks lift them.
 #[derive(Debug)]
-pub(in crate::read) struct Plans {
-    pub(in crate::read) threading: Vec<Vec<u32>>,
+pub(crate) struct Plans {
+    pub(crate) threading: Vec<Vec<u32>>,
     /// The tie-up with the treadling, or the lift plan.
-    pub(in crate::read) shedding: Shedding,
+    pub(crate) shedding: Shedding,
     /// The lift plan of a file that has a tie-up and a treadling as well.
-    pub(in crate::read) other: Option<Shedding>,
-    pub(in crate::read) rising_shed: bool,
+    pub(crate) other: Option<Shedding>,
+    pub(crate) rising_shed: bool,
 }
 
 impl Plans {
     /// The draft and its drawdown. If the other shedding weaves another cloth, a warning says so.
-    pub(in crate::read) fn draft(
+    pub(crate) fn draft(
         self,
         file: &Path,
         warnings: &mut Vec<String>,

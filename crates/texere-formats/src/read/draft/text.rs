@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// The text of a file. It is decoded as UTF-16 if it begins like UTF-16, else as UTF-8 if it is
 /// valid UTF-8, else as Latin-1.
-pub(in crate::read) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     // UTF-16 without a byte order mark is recognised by the zeros in its first two letters: a WIF
     // file begins with "[W", a file of Fiberworks with "@@".
     match *bytes {
@@ -29,6 +29,6 @@ fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Cow<'_, str> {
 }
 
 /// Lines that end in LF, CRLF or a lone CR.
-pub(in crate::read) fn lines(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
 }

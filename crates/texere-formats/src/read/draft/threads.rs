@@ -29,43 +29,43 @@ const ROUNDING: f64 = 1e-6;
 
 /// The share by which two spacings, two thicknesses, or a thickness and a spacing may differ and
 /// still count as equal. Programs round them.
-pub(in crate::read) const ALIKE: f64 = 0.01;
+pub(crate) const ALIKE: f64 = 0.01;
 
 /// The number of the material of threads without a colour.
 const NO_COLOR: u32 = 0;
 
 /// A colour of a draft, which is a material.
-pub(in crate::read) fn color(number: u32, srgb: [u8; 3]) -> Material {
+pub(crate) fn color(number: u32, srgb: [u8; 3]) -> Material {
     Material { name: format!("colour {number}"), srgb, ..Material::default() }
 }
 
 /// The warp's threads, or the weft's, as far as a file describes them. The lists have an item for
 /// each thread.
 #[derive(Debug)]
-pub(in crate::read) struct ThreadSet {
+pub(crate) struct ThreadSet {
     /// Where the threads are, as warnings begin: `[WARP]` in WIF, else `in the warp`.
-    pub(in crate::read) place: &'static str,
-    pub(in crate::read) spacing_mm: Vec<Option<f64>>,
-    pub(in crate::read) thickness_mm: Vec<Option<f64>>,
+    pub(crate) place: &'static str,
+    pub(crate) spacing_mm: Vec<Option<f64>>,
+    pub(crate) thickness_mm: Vec<Option<f64>>,
     /// Whether the thicknesses are widths at which a program draws threads. They then give only the
     /// ratios of the diameters.
-    pub(in crate::read) drawn: bool,
+    pub(crate) drawn: bool,
     /// Numbers of materials.
-    pub(in crate::read) material: Vec<Option<u32>>,
+    pub(crate) material: Vec<Option<u32>>,
 }
 
 /// What a draft says of its threads.
 #[derive(Debug)]
-pub(in crate::read) struct DraftThreads {
-    pub(in crate::read) warp: ThreadSet,
-    pub(in crate::read) weft: ThreadSet,
+pub(crate) struct DraftThreads {
+    pub(crate) warp: ThreadSet,
+    pub(crate) weft: ThreadSet,
     /// The colours. The first is that of threads without a colour.
-    pub(in crate::read) materials: Vec<Material>,
+    pub(crate) materials: Vec<Material>,
 }
 
 impl DraftThreads {
     /// The cloth of these threads.
-    pub(in crate::read) fn woven(
+    pub(crate) fn woven(
         self,
         file: &Path,
         drawdown: Drawdown,
@@ -142,7 +142,7 @@ fn are_alike(lengths: impl Iterator<Item = f64> + Clone) -> bool {
 }
 
 /// The mean of the lengths that are known, or none if none is known.
-pub(in crate::read) fn mean(lengths: &[Option<f64>]) -> Option<f64> {
+pub(crate) fn mean(lengths: &[Option<f64>]) -> Option<f64> {
     let (count, sum) =
         lengths.iter().flatten().fold((0, 0.0), |(count, sum), length| (count + 1, sum + length));
     (count > 0).then(|| sum / f64::from(count))

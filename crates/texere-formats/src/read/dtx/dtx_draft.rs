@@ -11,7 +11,7 @@ use crate::read::file::file_name;
 use crate::read::keys::Keys;
 
 /// Reads the bytes of a Fiberworks file.
-pub(in crate::read) fn draft(path: &Path, bytes: &[u8]) -> Result<LoomDraft, ReadError> {
+pub(crate) fn draft(path: &Path, bytes: &[u8]) -> Result<LoomDraft, ReadError> {
     let text = decode(bytes);
     let dtx = Sections::parse(path, &text)?;
     let keys = keys(&dtx)?;

@@ -58,8 +58,8 @@ fn missing(dtx: &Sections<'_>, field: &str, needed_for: &'static str) -> ReadErr
     ReadError::MissingKey { file: dtx.file.into(), field: field.into(), needed_for }
 }
 
-/// The list of a section with an entry for each of `count` threads. Entries beyond are left out with
-/// a warning. Threads without an entry have an empty one.
+/// The list of a section with an entry for each of `count` threads. Entries beyond are left out
+/// with a warning. Threads without an entry have an empty one.
 fn fitted(section: &str, mut list: Vec<Vec<u32>>, count: u32, warnings: &mut Vec<String>) -> Vec<Vec<u32>> {
     let beyond = list.len().saturating_sub(count as usize);
     if beyond > 0 {

@@ -130,8 +130,8 @@ impl<'a> Word<'a> {
 impl<'a> Sections<'a> {
     /// Reads the sections. If a section comes twice, the later one counts.
     ///
-    /// **Errors**: [`ReadError::Word`] for a file that does not begin as Fiberworks files do, and for
-    /// a section of more lines than a cloth may have threads.
+    /// **Errors**: [`ReadError::Word`] for a file that does not begin as Fiberworks files do, and
+    /// for a section of more lines than a cloth may have threads.
     pub(super) fn parse(file: &'a Path, text: &'a str) -> Result<Self, ReadError> {
         let mut sections: HashMap<&'static str, Section<'a>> = HashMap::new();
         let (mut open, mut has_begun) = (None, false);
@@ -177,8 +177,8 @@ impl<'a> Sections<'a> {
         self.sections.get(name).is_some_and(|section| section.settings.iter().any(is))
     }
 
-    /// The number of a line `%%key number` of `Info`, from 0 to `most`, with its line. None if there
-    /// is no such line or it has no number.
+    /// The number of a line `%%key number` of `Info`, from 0 to `most`, with its line. None if
+    /// there is no such line or it has no number.
     pub(super) fn info(&self, key: &str, most: u32) -> Result<Option<(u32, usize)>, ReadError> {
         let settings = self.sections.get("info").map_or(&[][..], |info| &info.settings);
         let found = settings.iter().rev().find_map(|row| {

@@ -67,8 +67,8 @@ fn set(
 }
 
 /// Whether the thickness for the whole set equals the spacing for the whole set, or all threads
-/// together are at least as thick as they are spaced. `common` has the spacing and the thickness for
-/// the whole set, `each` those of all threads.
+/// together are at least as thick as they are spaced. `common` has the spacing and the thickness
+/// for the whole set, `each` those of all threads.
 fn is_drawn(common: [Option<f64>; 2], each: [&[Option<f64>]; 2]) -> bool {
     let ratio = |[spacing, thickness]: [Option<f64>; 2]| {
         spacing.zip(thickness).map(|(spacing, thickness)| thickness / spacing)

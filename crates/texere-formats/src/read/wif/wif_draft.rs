@@ -16,7 +16,7 @@ use crate::read::file::file_name;
 use crate::read::keys::Keys;
 
 /// Reads the bytes of a WIF file.
-pub(in crate::read) fn draft(path: &Path, bytes: &[u8]) -> Result<LoomDraft, ReadError> {
+pub(crate) fn draft(path: &Path, bytes: &[u8]) -> Result<LoomDraft, ReadError> {
     let text = decode(bytes);
     let ini = Ini::parse(path, &text);
     let keys = ini.keys();

@@ -123,8 +123,8 @@ fn compressed_pattern(
 struct CompressedColumn {
     encoder: AttributeEncoder,
     spool: Spool,
-    /// The column of the caps, not compressed. The vertices of caps come between those of tubes, but
-    /// follow them in the file.
+    /// The column of the caps, not compressed. The vertices of caps come between those of tubes,
+    /// but follow them in the file.
     caps: Vec<u8>,
 }
 

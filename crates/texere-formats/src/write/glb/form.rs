@@ -56,8 +56,8 @@ impl VertexForm {
         Self { columns: vec![column; 2], compressed: false }
     }
 
-    /// Positions in steps of a grid, and normals in steps of 1/127. Both are padded to a multiple of
-    /// four bytes.
+    /// Positions in steps of a grid, and normals in steps of 1/127. Both are padded to a multiple
+    /// of four bytes.
     pub(super) fn packed() -> Self {
         let positions = Column { bytes: 8, kind: SHORT, normalized: None, shape: "VEC3", filter: None };
         let normals = Column { bytes: 4, kind: BYTE, normalized: Some(true), ..positions };

@@ -59,14 +59,19 @@ use crate::yarns_file::ENDING;
 pub(crate) use design_file::limits;
 #[cfg(feature = "wif")]
 pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
-#[cfg(any(feature = "knitout", feature = "toml"))]
+#[cfg(feature = "knitout")]
 pub(crate) use file::file_name;
 #[cfg(feature = "knitout")]
 pub(crate) use knitout::{
     FILE_MAX as KNITOUT_BYTES_MAX, GAUGE as KNITOUT_PER_INCH, gauge as knitout_gauge, is_swg,
     kept as knitout_text, of_carriers as knitout_yarns,
 };
-pub(crate) use knitted_from::{Drawn, KnittedFrom, Legend, ProgramHead, StitchSize};
+#[cfg(feature = "toml")]
+pub(crate) use knitted_from::Legend;
+#[cfg(any(feature = "knitout", feature = "toml"))]
+pub(crate) use knitted_from::{Drawn, KnittedFrom};
+#[cfg(feature = "knitout")]
+pub(crate) use knitted_from::{ProgramHead, StitchSize};
 #[cfg(feature = "wif")]
 pub(crate) use wif::{PROGRAM as WIF_PROGRAM, UNITS_MM as WIF_UNITS_MM};
 

@@ -344,7 +344,7 @@ fn refusals_of_fiberworks_files_name_line_and_column() {
         ("%%picks 4", "%%picks many", "line 11: @@Info %%picks is \"many\", expected a whole number"),
         (
             "@@Threading",
-            "@@Thr",
+            "@@Threa",
             "twill.dtx: @@Threading is missing or empty; it says which shaft each end is on",
         ),
         ("@@Tieup", "@@Tie", "twill.dtx: @@Tieup is missing or empty; it says what each treadle"),

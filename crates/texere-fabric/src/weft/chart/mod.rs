@@ -231,8 +231,8 @@ impl Chart {
     ///
     /// ```
     /// use texere_fabric::weft::{Beds, Chart};
-    /// let chart = Chart::parse("k p >RR rl Lt", Beds::One)?;
-    /// assert_eq!(chart.symbols(0).as_deref(), Some("kp>RRrlLt"));
+    /// let chart = Chart::parse("k p >RR rl Lt\nkkk kk kkkk", Beds::One)?;
+    /// assert_eq!(chart.symbols(1).as_deref(), Some("kp>RRrlLt"));
     /// # Ok::<(), texere_fabric::weft::ChartError>(())
     /// ```
     #[must_use]

@@ -134,7 +134,12 @@ struct Entry(PathBuf);
 
 impl Drop for Entry {
     fn drop(&mut self) {
-        registry().files.remove(&self.0);
+        let mut registry = registry();
+        registry.files.remove(&self.0);
+        if registry.files.is_empty() {
+            // An emptied set keeps the memory of its last entry, a new one has none.
+            registry.files = BTreeSet::new();
+        }
     }
 }
 

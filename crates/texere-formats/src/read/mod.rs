@@ -56,7 +56,7 @@ pub use yarns::{SavedYarns, yarns, yarns_from};
 use crate::yarns_file::ENDING;
 
 #[cfg(feature = "toml")]
-pub(crate) use design_file::limits;
+pub(crate) use design_file::{OUT as GUIDE_WITHOUT_YARN, limits};
 #[cfg(feature = "wif")]
 pub(crate) use draft::{FILE_MAX as WIF_BYTES_MAX, LENGTH_MM as WIF_LENGTH_MM};
 #[cfg(feature = "knitout")]

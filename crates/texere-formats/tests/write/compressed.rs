@@ -10,7 +10,7 @@ use texere_cpu::SerialBackend;
 use texere_formats::WriteError;
 use texere_formats::write::{self, Format, Output};
 
-use crate::fabric::{fabric, long_yarn, pipeline, region, ways, whole};
+use crate::fabric::{each_mesh, fabric, long_yarn, pipeline, region, ways, whole};
 use crate::unpack::{Unpacked, unpack};
 
 fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
@@ -79,15 +79,7 @@ fn assert_compresses(mesh: &Mesh, what: &str) {
 
 #[test]
 fn a_compressed_file_holds_the_vertices_of_a_packed_one() {
-    for yarns in [fabric(), long_yarn()] {
-        for caps in [false, true] {
-            assert_compresses(&whole(&yarns, caps), &format!("caps {caps}"));
-            for way in ways() {
-                let mesh = pipeline(&yarns, caps, way).mesh(&SerialBackend::new()).unwrap();
-                assert_compresses(&mesh, &format!("caps {caps}, {way:?}"));
-            }
-        }
-    }
+    each_mesh(assert_compresses);
     let (yarns, way) = (fabric(), ways()[0]);
     let part = pipeline(&yarns, false, way).within(region()).mesh(&SerialBackend::new()).unwrap();
     assert_compresses(&part, "a region");

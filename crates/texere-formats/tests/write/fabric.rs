@@ -85,6 +85,20 @@ pub(crate) fn whole(yarns: &Yarns, caps: bool) -> Mesh {
     pipeline(yarns, caps, (Topology::Indexed, Limits::NONE)).mesh(&SerialBackend::new()).unwrap()
 }
 
+/// Calls `each` with meshes of both fabrics, with caps and without, whole and cut in all ways, and
+/// with words that name the mesh.
+pub(crate) fn each_mesh(each: impl Fn(&Mesh, &str)) {
+    for yarns in [fabric(), long_yarn()] {
+        for caps in [false, true] {
+            each(&whole(&yarns, caps), &format!("caps {caps}"));
+            for way in ways() {
+                let mesh = pipeline(&yarns, caps, way).mesh(&SerialBackend::new()).unwrap();
+                each(&mesh, &format!("caps {caps}, {way:?}"));
+            }
+        }
+    }
+}
+
 /// The triangles of each yarn, sorted, because chunks change their order.
 pub(crate) fn triangles(mesh: &Mesh) -> BTreeMap<u32, Vec<Triangle>> {
     let mut triangles: BTreeMap<u32, Vec<Triangle>> = BTreeMap::new();

@@ -11,7 +11,7 @@ use texere_cpu::SerialBackend;
 use texere_formats::WriteError;
 use texere_formats::write::{self, Format, Output};
 
-use crate::fabric::{fabric, long_yarn, pipeline, ways, whole};
+use crate::fabric::{each_mesh, pipeline, ways, whole};
 
 /// Half a step, with room for a rounding of the step and of the middle to `f32`.
 const HALF_A_STEP: f64 = 0.5001;
@@ -96,15 +96,7 @@ fn assert_packs(mesh: &Mesh, what: &str) {
 
 #[test]
 fn a_packed_file_holds_the_vertices_of_a_plain_one() {
-    for yarns in [fabric(), long_yarn()] {
-        for caps in [false, true] {
-            assert_packs(&whole(&yarns, caps), &format!("caps {caps}"));
-            for way in ways() {
-                let mesh = pipeline(&yarns, caps, way).mesh(&SerialBackend::new()).unwrap();
-                assert_packs(&mesh, &format!("caps {caps}, {way:?}"));
-            }
-        }
-    }
+    each_mesh(assert_packs);
 }
 
 /// A straight yarn of `length` mm.

@@ -29,7 +29,7 @@ impl Cloth {
         if let Some(share) = &table.warp_crimp {
             let field = "cloth.warp_crimp";
             let share = source.float(field, share, "the warp's share of the crimp, a number from 0 to 1")?;
-            cloth.crimp = Crimp::WarpShare(source.number(field, &share, 0.0, 1.0)? as f32);
+            cloth.crimp = Crimp::WarpShare(source.number(field, &share, [0.0, 1.0])? as f32);
         }
         if let Some(selvedge) = &table.selvedge {
             let given = selvedge.as_ref().truth();

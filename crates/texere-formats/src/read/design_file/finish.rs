@@ -43,7 +43,7 @@ impl FinishTable {
             let Some(value) = value else { return Ok(1.0) };
             let expected = "a number, 1 where the cloth is relaxed";
             let number = source.float(field, value, expected)?;
-            Ok::<_, ReadError>(source.number(field, &number, 0.0, TIMES_MOST)? as f32)
+            Ok::<_, ReadError>(source.number(field, &number, [0.0, TIMES_MOST])? as f32)
         };
         let said = |settle: &Spanned<Any>| {
             settle.as_ref().truth().ok_or_else(|| source.odd("finish.settle", settle, "true or false"))
@@ -59,7 +59,7 @@ impl FinishTable {
         if let Some(press) = &self.press {
             let field = "finish.press";
             let gap = source.float(field, press, "the distance of two plates, a number of mm")?;
-            finish.press_mm = Some(source.number(field, &gap, PRESS_MM[0], PRESS_MM[1])? as f32);
+            finish.press_mm = Some(source.number(field, &gap, PRESS_MM)? as f32);
         }
         Ok((settle, finish))
     }
@@ -76,7 +76,7 @@ impl FinishTable {
             }
         };
         let number = source.float(field, given, "a number, how many times as long the cloth becomes")?;
-        let by = source.number(field, &number, STRETCH[0], STRETCH[1])?;
+        let by = source.number(field, &number, STRETCH)?;
         Ok(Some(Stretch { along, by }))
     }
 
@@ -90,7 +90,7 @@ impl FinishTable {
                 (Some("free"), _) => Length::Free { tension: 0.0 },
                 (None, Some(factor)) => {
                     let factor = Spanned::new(given.span(), factor);
-                    Length::Given(source.number(field, &factor, LENGTHS[0], LENGTHS[1])? as f32)
+                    Length::Given(source.number(field, &factor, LENGTHS)? as f32)
                 }
                 _ => {
                     let expected = "\"held\", \"free\" or how many times its length each yarn is to have";
@@ -102,7 +102,7 @@ impl FinishTable {
             let field = "finish.tension";
             let number =
                 source.float(field, given, "the tension that draws yarns in, a number from 0 to 0.1")?;
-            let number = source.number(field, &number, 0.0, TENSION_MOST)? as f32;
+            let number = source.number(field, &number, [0.0, TENSION_MOST])? as f32;
             let Some(Length::Free { tension }) = &mut length else {
                 let place = source.place(field, given.span());
                 return Err(ReadError::Without { place, needs: "finish.length = \"free\"" });

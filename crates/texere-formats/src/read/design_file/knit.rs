@@ -202,11 +202,10 @@ impl Reader<'_> {
     /// knitout file, if any.
     pub(super) fn gauge(&self, needles: Option<f64>) -> Result<Gauge, ReadError> {
         let (source, table) = (self.source, self.table);
-        let number = |field, value, range| source.optional(field, value, range);
-        let wales = number("knit.wales_per_cm", &table.wales_per_cm, PER_CM)?;
-        let courses = number("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
-        let per_inch = number("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;
-        let loop_mm = number("knit.loop_length_mm", &table.loop_length_mm, LOOP_MM)?;
+        let wales = source.optional("knit.wales_per_cm", &table.wales_per_cm, PER_CM)?;
+        let courses = source.optional("knit.courses_per_cm", &table.courses_per_cm, PER_CM)?;
+        let per_inch = source.optional("knit.needles_per_inch", &table.needles_per_inch, PER_INCH)?;
+        let loop_mm = source.optional("knit.loop_length_mm", &table.loop_length_mm, LOOP_MM)?;
         let gauge = match (wales, per_inch, courses) {
             (Some(_), Some(_), _) => {
                 let keys = "knit.wales_per_cm and knit.needles_per_inch";

@@ -9,7 +9,7 @@ use super::source::Source;
 use crate::read::ReadError;
 
 /// The least and the greatest share of its diameter that a yarn may keep between other yarns.
-const COMPRESSION: (f64, f64) = (0.8, 1.0);
+const COMPRESSION: [f64; 2] = [0.8, 1.0];
 
 /// The share of its diameter that a yarn keeps between other yarns.
 pub(super) fn compression(
@@ -17,7 +17,7 @@ pub(super) fn compression(
     field: &str,
     share: Option<&Spanned<f64>>,
 ) -> Result<f64, ReadError> {
-    share.map_or(Ok(1.0), |share| source.number(field, share, COMPRESSION.0, COMPRESSION.1))
+    share.map_or(Ok(1.0), |share| source.number(field, share, COMPRESSION))
 }
 
 /// The numbers of copies of a repeat across the wales and along the courses.

@@ -31,7 +31,7 @@ impl Reader<'_> {
                 let expected = "a stitch size: the number behind x-stitch-number, or both behind stitch";
                 return Err(source.unfit(&field, size.span(), expected));
             };
-            let length = source.number(&field, length, LOOP_MM[0], LOOP_MM[1])?;
+            let length = source.number(&field, length, LOOP_MM)?;
             if lengths.insert(name, length).is_some() {
                 return Err(source.unfit(&field, size.span(), "each stitch size once, as a number"));
             }

@@ -141,3 +141,4 @@ use texere_fabric::warp::{Chain, LAPPINGS};
 use texere_fabric::weft::{Backing, Beds, Cells, Chart, Gauge};
 #[cfg(doc)]
 use texere_fabric::{Crimp, Finish, Relief, Shape, Structure, Weave};
+pub(crate) use warp_knit::OUT;

@@ -100,8 +100,7 @@ impl<'a> Source<'a> {
         &self,
         field: &str,
         value: &Spanned<f64>,
-        low: f64,
-        high: f64,
+        [low, high]: [f64; 2],
     ) -> Result<f64, ReadError> {
         if (low..=high).contains(value.as_ref()) {
             return Ok(*value.as_ref());
@@ -114,14 +113,14 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// The number in `value`, which must be from `low` to `high`. None if the key is not there.
+    /// The number in `value`, which must lie in `range`. None if the key is not there.
     pub(super) fn optional(
         &self,
         field: &str,
         value: &Option<Spanned<f64>>,
-        [low, high]: [f64; 2],
+        range: [f64; 2],
     ) -> Result<Option<f64>, ReadError> {
-        value.as_ref().map(|value| self.number(field, value, low, high)).transpose()
+        value.as_ref().map(|value| self.number(field, value, range)).transpose()
     }
 
     /// The number of threads in `value`.

@@ -69,7 +69,7 @@ impl YarnTable {
     ) -> Result<Vec<Thread>, ReadError> {
         let [low, high] = LENGTH_MM;
         let spacing = |key: &str, per: &Spanned<f64>, mm: f64| {
-            let per = source.number(&format!("{set}.{key}"), per, mm / high, mm / low)?;
+            let per = source.number(&format!("{set}.{key}"), per, [mm / high, mm / low])?;
             Ok::<_, ReadError>(vec![mm / per])
         };
         let spacings_mm = match (&spec.per_cm, &spec.per_inch, &spec.spacing_mm) {
@@ -233,14 +233,14 @@ fn spacings(source: &Source<'_>, field: &str, value: &Spanned<Any>) -> Result<Ve
     let expected = "a number of mm, or a list of them such as [2.0, 1.0]";
     let [low, high] = LENGTH_MM;
     let Some(list) = value.as_ref().list() else {
-        return Ok(vec![source.number(field, &source.float(field, value, expected)?, low, high)?]);
+        return Ok(vec![source.number(field, &source.float(field, value, expected)?, [low, high])?]);
     };
     if list.is_empty() {
         return Err(source.odd(field, value, expected));
     }
     let each = list.iter().zip(1..).map(|(item, place)| {
         let number = item.number().ok_or_else(|| source.odd(field, value, expected))?;
-        source.number(&format!("{field}, number {place},"), &Spanned::new(value.span(), number), low, high)
+        source.number(&format!("{field}, number {place},"), &Spanned::new(value.span(), number), [low, high])
     });
     each.collect()
 }

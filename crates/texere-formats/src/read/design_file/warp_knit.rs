@@ -19,7 +19,7 @@ use crate::read::point_paper::PointPaper;
 use crate::read::{Design, ReadError};
 
 /// The word of a threading for a guide without yarn.
-const OUT: &str = "out";
+pub(crate) const OUT: &str = "out";
 
 /// Reads the warp knit that `table` describes.
 pub(super) fn read(
@@ -57,9 +57,8 @@ pub(super) fn read(
 
 /// The gauge: how close loops lie.
 fn gauge(source: &Source<'_>, table: &WarpKnitTable) -> Result<Gauge, ReadError> {
-    let number = |key: &str, value: &Spanned<f64>, [low, high]: [f64; 2]| {
-        source.number(&format!("warp_knit.{key}"), value, low, high)
-    };
+    let number =
+        |key: &str, value: &Spanned<f64>, range| source.number(&format!("warp_knit.{key}"), value, range);
     let wale_mm = match (&table.wales_per_cm, &table.needles_per_inch, &table.draw_in) {
         (Some(wales), None, None) => 10.0 / number("wales_per_cm", wales, PER_CM)?,
         (None, Some(needles), draw_in) => {
@@ -234,5 +233,5 @@ fn out(item: &str) -> Option<u32> {
 /// A number of needles, of either sign.
 fn offset(source: &Source<'_>, field: &str, needles: &Spanned<i64>) -> Result<i32, ReadError> {
     let value = Spanned::new(needles.span(), *needles.as_ref() as f64);
-    source.number(field, &value, -OFFSET_MAX as f64, OFFSET_MAX as f64).map(|needles| needles as i32)
+    source.number(field, &value, [-OFFSET_MAX as f64, OFFSET_MAX as f64]).map(|needles| needles as i32)
 }

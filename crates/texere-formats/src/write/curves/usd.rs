@@ -105,39 +105,45 @@ impl<'a> Curve<'a> {
         self.points.len() - usize::from(!self.closed)
     }
 
+    /// The yarn's points as the file has them. An open Catmull-Rom curve has its first and its last
+    /// one twice. A closed curve without a wrap has its first one again at its end.
+    fn knots(self) -> impl Iterator<Item = &'a ControlPoint> {
+        let is_spline = self.basis == Basis::CatmullRom;
+        let before = self.points.first().filter(|_| is_spline && !self.closed);
+        let after = match (is_spline, self.closed) {
+            (true, false) => self.points.last(),
+            (false, true) => self.points.first(),
+            _ => None,
+        };
+        before.into_iter().chain(self.points).chain(after)
+    }
+
     /// Number of the curve's vertices in the file.
     fn count(self) -> usize {
         match self.basis {
-            Basis::CatmullRom => self.points.len() + if self.closed { 0 } else { 2 },
             Basis::Bezier => 3 * self.intervals() + 1,
-            Basis::Linear => self.intervals() + 1,
+            Basis::CatmullRom | Basis::Linear => self.knots().count(),
         }
     }
 
-    /// The curve's vertices in the file, mm.
+    /// The curve's vertices in the file, mm: its knots, and between them the handles of Bézier
+    /// curves.
     fn vertices(self) -> impl Iterator<Item = [f32; 3]> + 'a {
-        let window = move |interval| {
-            neighbours(self.points, self.closed, interval).map(|point| [point.x, point.y, point.z])
-        };
-        let [_, start, _, _] = window(0);
-        let is_open = self.basis == Basis::CatmullRom && !self.closed;
-        let first = [Some(start), Some(start).filter(|_| is_open), None];
+        let handled = if self.basis == Basis::Bezier { self.intervals() } else { 0 };
+        self.knots().enumerate().flat_map(move |(knot, point)| {
+            let handles = (knot < handled).then(|| self.handles(knot));
+            std::iter::once(axes(point)).chain(handles.into_iter().flatten())
+        })
+    }
+
+    /// The two vertices of a Bézier curve within an interval, mm.
+    fn handles(self, interval: usize) -> [[f32; 3]; 2] {
+        let [before, start, end, after] =
+            neighbours(self.points, self.closed, interval).map(|point| axes(&point));
         let third = tangent_factor::<f32>(self.tension) / 3.0;
-        let others = (0..self.intervals()).map(move |interval| {
-            let [before, start, end, after] = window(interval);
-            let is_last = interval + 1 == self.intervals();
-            match self.basis {
-                // A periodic curve has its first vertex once.
-                Basis::CatmullRom if self.closed => return [Some(end).filter(|_| !is_last), None, None],
-                Basis::CatmullRom => return [Some(end), Some(end).filter(|_| is_last), None],
-                Basis::Linear => return [Some(end), None, None],
-                Basis::Bezier => {}
-            }
-            let leaving = std::array::from_fn(|axis| start[axis] + third * (end[axis] - before[axis]));
-            let arriving = std::array::from_fn(|axis| end[axis] - third * (after[axis] - start[axis]));
-            [Some(leaving), Some(arriving), Some(end)]
-        });
-        std::iter::once(first).chain(others).flatten().flatten()
+        let leaving = std::array::from_fn(|axis| start[axis] + third * (end[axis] - before[axis]));
+        let arriving = std::array::from_fn(|axis| end[axis] - third * (after[axis] - start[axis]));
+        [leaving, arriving]
     }
 
     /// The mass of the lines between the curve's points, kg. One tex is one gram per kilometre.
@@ -150,20 +156,16 @@ impl<'a> Curve<'a> {
         f64::from(tex) * 1e-9 * length
     }
 
-    /// The diameters in the file, mm: one for each vertex, or for Bézier curves for each end of a
-    /// piece. A diameter is that of a circle with the area of the ellipse that is as wide and as
-    /// high as the yarn.
+    /// The diameter at each knot, mm. It is the diameter of a circle with the area of the ellipse
+    /// that is as wide and as high as the yarn.
     fn diameters(self) -> impl Iterator<Item = f32> + 'a {
-        let is_spline = self.basis == Basis::CatmullRom;
-        let before = self.points.first().filter(|_| is_spline && !self.closed);
-        let after = match (is_spline, self.closed) {
-            (true, false) => self.points.last(),
-            (false, true) => self.points.first(),
-            _ => None,
-        };
-        let all = before.into_iter().chain(self.points).chain(after);
-        all.map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
+        self.knots().map(|point| 2.0 * (point.half_width() * point.half_height()).sqrt())
     }
+}
+
+/// The place of a point, mm.
+fn axes(point: &ControlPoint) -> [f32; 3] {
+    [point.x, point.y, point.z]
 }
 
 /// The corners of the box round all vertices of the curves, widened by their greatest radius, mm.

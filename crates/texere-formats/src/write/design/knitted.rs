@@ -3,6 +3,7 @@
 use texere_fabric::Structure;
 use texere_fabric::weft::{Knitted, Machine};
 
+use super::kind::kind;
 use crate::Design;
 use crate::read::KnittedFrom;
 use crate::write::WriteError;
@@ -19,9 +20,7 @@ pub(super) fn knitted<'a>(
     let unheld = |what: &str| WriteError::Unheld { format, what: what.into() };
     let knit = match &design.structure {
         Structure::Weft(knit) => knit,
-        Structure::Woven(_) => return Err(unheld("woven cloth")),
-        Structure::Warp(_) => return Err(unheld("a warp knit")),
-        _ => return Err(unheld("a structure of this kind")),
+        other => return Err(unheld(kind(other))),
     };
     let from = design.knitted_from().ok_or_else(|| unheld("a weft knit whose program is not known"))?;
     let again = Machine::default().knit(&from.program);

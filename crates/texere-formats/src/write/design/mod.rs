@@ -7,6 +7,7 @@ mod finish;
 mod format;
 #[cfg(feature = "wif")]
 mod interlacing;
+mod kind;
 #[cfg(feature = "knitout")]
 mod knitout;
 #[cfg(any(feature = "knitout", feature = "toml"))]

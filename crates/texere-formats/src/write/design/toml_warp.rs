@@ -9,10 +9,7 @@ use super::text::within;
 use super::toml_knit;
 use super::toml_text::quoted;
 use super::yarns::Yarns;
-use crate::read::limits;
-
-/// The word of a threading for a guide without yarn.
-const OUT: &str = "out";
+use crate::read::{GUIDE_WITHOUT_YARN, limits};
 
 /// The table `[warp_knit]` with its guide bars.
 pub(super) fn warp_table(
@@ -20,7 +17,7 @@ pub(super) fn warp_table(
     left_out: &mut Vec<String>,
 ) -> Result<(String, Yarns), WriteError> {
     // In a threading such a name would stand for empty guides.
-    let is_yarn = |name: &str| name.split_whitespace().next_back() != Some(OUT);
+    let is_yarn = |name: &str| name.split_whitespace().next_back() != Some(GUIDE_WITHOUT_YARN);
     let yarns = Yarns::of_knit(knit.guide_yarns(), knit.materials(), knit.sections(), is_yarn)?;
     let [wales, courses] = knit.lapped_size();
     for (key, side) in [("wales", wales), ("courses", courses)] {
@@ -70,8 +67,8 @@ fn threading(threading: &Threading, yarns: &Yarns) -> Vec<String> {
     let runs = threading.guides().chunk_by(|one, other| one == other);
     let items = |run: &[Option<u32>]| match (run[0], run.len()) {
         (Some(yarn), times) => yarns.items(yarn, times),
-        (None, 1) => vec![quoted(OUT)],
-        (None, times) => vec![quoted(&format!("{times} {OUT}"))],
+        (None, 1) => vec![quoted(GUIDE_WITHOUT_YARN)],
+        (None, times) => vec![quoted(&format!("{times} {GUIDE_WITHOUT_YARN}"))],
     };
     runs.flat_map(items).collect()
 }

@@ -2,6 +2,7 @@
 
 use texere_fabric::{Structure, WovenDesign};
 
+use super::kind::kind;
 use crate::Design;
 use crate::write::WriteError;
 
@@ -9,11 +10,8 @@ use crate::write::WriteError;
 ///
 /// **Errors**: [`WriteError::Unheld`] for a knit.
 pub(super) fn woven<'a>(format: &'static str, design: &'a Design) -> Result<&'a WovenDesign, WriteError> {
-    let what = match &design.structure {
-        Structure::Woven(woven) => return Ok(woven),
-        Structure::Weft(_) => "a weft knit",
-        Structure::Warp(_) => "a warp knit",
-        _ => "a structure of this kind",
-    };
-    Err(WriteError::Unheld { format, what: what.into() })
+    match &design.structure {
+        Structure::Woven(woven) => Ok(woven),
+        other => Err(WriteError::Unheld { format, what: kind(other).into() }),
+    }
 }

@@ -213,7 +213,7 @@ namespace Texere
             return new Yarns(made);
         }
 
-        /// <summary>Reads curves that another program wrote: .bcc, .obj or .usda.</summary>
+        /// <summary>Reads curves that another program wrote: .bcc, .obj, .usda or .tg3.</summary>
         /// <param name="path">The file.</param>
         /// <param name="unitMm">The length of the file's unit, mm; 0 if the file says it.</param>
         /// <param name="diameterMm">The diameter of all yarns, mm; 0 if the file says widths.</param>

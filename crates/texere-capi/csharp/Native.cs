@@ -497,8 +497,8 @@ namespace Texere
         internal static extern void texere_cloth_free(texere_cloth* cloth);
 
         /// <summary>
-        ///  Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
-        ///  knitting machine (`.k`).
+        ///  Reads a design from a file: a draft of WIF (`.wif`), Fiberworks (`.dtx`) or WeavePoint (`.wpo`),
+        ///  a design file (`.toml`) or a program of a knitting machine (`.k`).
         ///
         ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
         ///  design; `texere_error_place` then says where the file is at fault.
@@ -1334,9 +1334,9 @@ namespace Texere
         /// <summary>
         ///  Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
         ///  polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-        ///  `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
-        ///  With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
-        ///  and `diameter_mm` has to be given.
+        ///  `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
+        ///  unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
+        ///  and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
         ///
         ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
         ///  lacks the diameter.

@@ -1379,8 +1379,8 @@ enum texere_status texere_cloth_yarns(const struct texere_cloth *cloth, struct t
 // Frees a cloth. A null handle is allowed.
 void texere_cloth_free(struct texere_cloth *cloth);
 
-// Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
-// knitting machine (`.k`).
+// Reads a design from a file: a draft of WIF (`.wif`), Fiberworks (`.dtx`) or WeavePoint (`.wpo`),
+// a design file (`.toml`) or a program of a knitting machine (`.k`).
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
 // design; `texere_error_place` then says where the file is at fault.
@@ -2105,9 +2105,9 @@ enum texere_status texere_yarns_read_memory(const char *name,
 
 // Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
 // polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-// `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
-// With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
-// and `diameter_mm` has to be given.
+// `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
+// unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
+// and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
 // lacks the diameter.

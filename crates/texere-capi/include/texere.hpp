@@ -227,7 +227,7 @@ public:
 // A design that is read from a file or from memory, or made of arrays.
 class Design : public Owner<texere_design, texere_design_free> {
 public:
-    // Reads a file: `.wif`, `.toml` or `.k`.
+    // Reads a file: `.wif`, `.dtx`, `.wpo`, `.toml` or `.k`.
     explicit Design(std::string_view path) : Owner(texere_design_read, path.data(), path.size()) {}
 
     // Reads a design from memory. The ending of `name` says what kind of design it is. `files(path)`
@@ -305,8 +305,8 @@ public:
     Yarns(std::string_view name, view<const std::uint8_t> data)
         : Owner(texere_yarns_read_memory, name.data(), name.size(), data.data(), data.size()) {}
 
-    // Reads curves that another program wrote: `.bcc`, `.obj` or `.usda`. Lengths of 0 are as the file
-    // says.
+    // Reads curves that another program wrote: `.bcc`, `.obj`, `.usda` or `.tg3`. Lengths of 0 are as
+    // the file says.
     static Yarns curves(std::string_view path, float unit_mm = 0, float diameter_mm = 0) {
         texere_yarns *yarns = nullptr;
         check(texere_yarns_read_curves(path.data(), path.size(), unit_mm, diameter_mm, &yarns));

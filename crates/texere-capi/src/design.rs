@@ -38,8 +38,8 @@ pub type texere_file_callback = Option<
     ) -> i32,
 >;
 
-/// Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
-/// knitting machine (`.k`).
+/// Reads a design from a file: a draft of WIF (`.wif`), Fiberworks (`.dtx`) or WeavePoint (`.wpo`),
+/// a design file (`.toml`) or a program of a knitting machine (`.k`).
 ///
 /// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
 /// design; `texere_error_place` then says where the file is at fault.

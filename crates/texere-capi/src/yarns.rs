@@ -180,9 +180,9 @@ pub unsafe extern "C" fn texere_yarns_read_memory(
 
 /// Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
 /// polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-/// `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
-/// With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
-/// and `diameter_mm` has to be given.
+/// `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
+/// unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
+/// and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
 ///
 /// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
 /// lacks the diameter.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use texere::{Design, Yarns};
 
-use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_stage, is_yarns};
+use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_yarns, says_thickness};
 use crate::fail::Fail;
 use crate::terminal::line;
 
@@ -39,7 +39,7 @@ pub(crate) fn yarns(
         return Err(Fail::needs_design(option, path));
     }
     let scale = curves.scale();
-    if is_curves && !is_stage(path) && scale.diameter_mm.is_none() {
+    if is_curves && !says_thickness(path) && scale.diameter_mm.is_none() {
         return Err(Fail::needs_diameter(path));
     }
     let yarns = if is_curves { texere::read::curves(path, scale)? } else { texere::read::yarns(path)?.yarns };

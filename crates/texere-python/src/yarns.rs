@@ -66,10 +66,11 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
 }
 
 /// Reads curves that another program wrote, in a BCC file (``.bcc``), as polylines of an OBJ file
-/// (``.obj``) or in the text form of USD (``.usda``): round yarns. A USD file says its unit and the
-/// widths of its curves. For other files ``diameter_mm`` has to be given, and ``unit_mm``, the
-/// length of the unit, is 1 if left out. If they are given for a USD file, they count instead of
-/// what it says. A unit of 1 mm keeps coordinates to the bit.
+/// (``.obj``) or in the text form of USD (``.usda``): round yarns. Yarns of TexGen (``.tg3``) have
+/// their sections. Files of USD and TexGen say their unit and widths. For other files
+/// ``diameter_mm`` has to be given, and ``unit_mm``, the length of the unit, is 1 if left out. If
+/// they are given for a file that says them, they count instead of what it says. A unit of 1 mm
+/// keeps coordinates to the bit.
 ///
 /// >>> import tempfile, pathlib
 /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "one.bcc"

@@ -18,7 +18,7 @@ const STEP: u64 = 10_000;
 #[derive(Debug, Parser)]
 struct Args {
     /// wif, dtx, wpo, design, notation, image, paper, knitout, knit, warp-knit, yarns, curves,
-    /// polylines or stage; all of them if left out
+    /// polylines, stage or texgen; all of them if left out
     #[arg(long)]
     reader: Option<String>,
     /// How many inputs for each reader

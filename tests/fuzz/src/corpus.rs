@@ -94,6 +94,26 @@ pub(crate) const STAGES: &[&str] = &[
      [\"x\"], }\nrel m = </gone> }\n",
 ];
 
+/// TexGen files with every kind of path and section that is read.
+pub(crate) const TEXGEN: &[&str] = &[
+    "<?xml version=\"1.0\" ?>\n<TexGenModel version=\"3.14.0\">\n<Textile GeometryScale=\"mm\" type=\"CTextile\">\n<Domain \
+     type=\"CDomainPlanes\"><Plane Normal=\"1, 0, 0\" d=\"0\" /></Domain>\n<Yarn index=\"0\">\n<Interpolation Periodic=\"1\" \
+     type=\"CInterpolationCubic\" />\n<YarnSection type=\"CYarnSectionConstant\">\n<Section type=\"CSectionEllipse\" Width=\"0.4\" \
+     Height=\"0.2\" />\n</YarnSection>\n<Repeat value=\"4, 0, 0\" />\n<MasterNode Position=\"0, 0, 0\" Up=\"0, 0, 1\" \
+     Angle=\"0\" />\n<MasterNode Position=\"1, 0, 0.2\" Up=\"0, 1, 1\" />\n<MasterNode Position=\"2.5, 0.1, -0.1\" />\n<MasterNode \
+     Position=\"4, 0, 0\" />\n</Yarn>\n<Yarn index=\"1\">\n<Interpolation Periodic=\"0\" ForceMasterNodeTangent=\"1\" \
+     type=\"CInterpolationBezier\" />\n<YarnSection type=\"CYarnSectionInterpNode\">\n<NodeSection>\n<Section type=\"CSectionLenticular\" \
+     Width=\"0.4\" Height=\"0.2\" Distortion=\"0.02\" />\n<MidNodeSection t=\"0.5\"><Section type=\"CSectionPowerEllipse\" Width=\"0.3\" \
+     Height=\"0.2\" Power=\"0.6\" XOffset=\"0\" /></MidNodeSection>\n</NodeSection>\n<NodeSection>\n<Section \
+     type=\"CSectionRectangle\" Width=\"0.4\" Height=\"0.2\" />\n</NodeSection>\n</YarnSection>\n<MasterNode Position=\"0, 1, 0\" \
+     Tangent=\"0, 1, 0\" />\n<MasterNode Position=\"1, 2, 0\" />\n</Yarn>\n</Textile>\n</TexGenModel>\n",
+    "<TexGenModel>\n<Textile GeometryScale=\"cm\">\n<Yarn>\n<Interpolation Periodic=\"1\" type=\"CInterpolationLinear\" />\n<YarnSection \
+     type=\"CYarnSectionConstant\">\n<Section type=\"CSectionPolygon\">\n<PolygonPoint value=\"0.03, 0\" />\n<PolygonPoint \
+     value=\"-0.02, 0.01\" />\n<PolygonPoint value=\"-0.02, -0.01\" />\n</Section>\n</YarnSection>\n<MasterNode Position=\"0, 0, 0\" \
+     />\n<MasterNode Position=\"1, 0, 0\" />\n<MasterNode Position=\"1, 1, 0\" />\n<MasterNode Position=\"0, 1, 0\" />\n<MasterNode \
+     Position=\"0, 0, 0\" />\n</Yarn>\n</Textile>\n</TexGenModel>\n",
+];
+
 /// Design files of knits, some with an image `motif.png` or a program `program.k` beside them.
 pub(crate) const KNITS: &[&str] = &[
     "[knit]\nchart = \"\"\"\nkkRRrrk\n>kpptk<\nkkmkllL\n\"\"\"\nrepeat = [2, 1]\nyarns = [\"2 a\", \"b\"]\nwales_per_cm = 8\ncourses_per_cm = 10\n\

@@ -44,7 +44,10 @@ pub fn drive(path: &Path) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
         return saved(path);
     }
-    if path.extension().is_some_and(|ending| ending == "bcc" || ending == "obj" || ending == "usda") {
+    if path
+        .extension()
+        .is_some_and(|ending| ["bcc", "obj", "usda", "tg3"].iter().any(|known| ending == *known))
+    {
         return curves(path);
     }
     let mut design = match read(path) {
@@ -179,8 +182,8 @@ fn saved(path: &Path) -> Outcome {
 /// written again are the same when they are read again.
 fn curves(path: &Path) -> Outcome {
     let given = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.2) };
-    // A USD file says both itself.
-    let says_both = path.extension().is_some_and(|ending| ending == "usda");
+    // Files of USD and TexGen say both themselves.
+    let says_both = path.extension().is_some_and(|ending| ending == "usda" || ending == "tg3");
     let yarns = match read::curves(path, if says_both { CurveScale::default() } else { given }) {
         // BCC holds splines of tension 0 alone.
         Ok(yarns) => yarns.with_tension(0.0).expect("a tension in range"),

@@ -53,11 +53,13 @@ pub enum Reader {
     Polylines,
     /// USD files with curves.
     Stage,
+    /// TexGen files.
+    Texgen,
 }
 
 impl Reader {
     /// All readers.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Wif,
         Self::Dtx,
         Self::Wpo,
@@ -72,6 +74,7 @@ impl Reader {
         Self::Curves,
         Self::Polylines,
         Self::Stage,
+        Self::Texgen,
     ];
 
     /// The name of the reader, in lower case.
@@ -92,6 +95,7 @@ impl Reader {
             Self::Curves => "curves",
             Self::Polylines => "polylines",
             Self::Stage => "stage",
+            Self::Texgen => "texgen",
         }
     }
 }
@@ -141,6 +145,7 @@ impl Input {
             Reader::Curves => vec![("design.bcc", yarn_bytes::mutated_curves(random))],
             Reader::Polylines => vec![("design.obj", text::mutated(corpus::POLYLINES, random))],
             Reader::Stage => vec![("design.usda", text::mutated(corpus::STAGES, random))],
+            Reader::Texgen => vec![("design.tg3", text::mutated(corpus::TEXGEN, random))],
         };
         Self { files }
     }

@@ -77,6 +77,11 @@ fn stages() {
 }
 
 #[test]
+fn texgen_files() {
+    ten_thousand(Reader::Texgen);
+}
+
+#[test]
 fn curves() {
     ten_thousand(Reader::Curves);
 }

@@ -7,11 +7,12 @@ use super::numbers::millimetres;
 /// The scale of curves that another program wrote.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct CurveArgs {
-    /// The diameter of all yarns of a file of curves, mm; USD files say widths themselves
+    /// The diameter of all yarns of a file of curves, mm; files of USD and TexGen say widths
+    /// themselves
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     diameter: Option<f32>,
-    /// The length of the unit of a file of curves, mm: 1000 for metres; if left out, what a USD
-    /// file says, and 1 for other files
+    /// The length of the unit of a file of curves, mm: 1000 for metres; if left out, what a file of
+    /// USD or TexGen says, and 1 for other files
     #[arg(long, value_name = "MM", value_parser = millimetres, allow_negative_numbers = true)]
     unit: Option<f32>,
 }

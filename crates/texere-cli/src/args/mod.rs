@@ -18,7 +18,7 @@ pub(crate) use bake::BakeArgs;
 pub(crate) use curves::CurveArgs;
 use numbers::point;
 use path::{file_of, mesh_file};
-pub(crate) use path::{is_curves, is_read_as_curves, is_stage, is_yarns};
+pub(crate) use path::{is_curves, is_read_as_curves, is_yarns, says_thickness};
 pub(crate) use render::{RenderArgs, View};
 pub(crate) use settings::{SettingsArgs, undersampled};
 pub(crate) use settling::SettlingArgs;
@@ -107,7 +107,8 @@ pub(crate) struct CheckArgs {
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
     /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
-    /// file of saved cloth, or a .bcc or .obj file of curves that another program wrote
+    /// file of saved cloth, or a .bcc, .obj, .usda or .tg3 file of curves that another program
+    /// wrote
     pub(crate) design: PathBuf,
     /// The file to write: .glb, .ply, .stl or .obj for a mesh; .bcc or .usda for the yarns'
     /// centrelines, as curves for other programs; .yarns saves the cloth at rest, which need not

@@ -18,12 +18,12 @@ pub(crate) fn is_curves(path: &Path) -> bool {
 
 /// Whether texere reads a path as curves of another program.
 pub(crate) fn is_read_as_curves(path: &Path) -> bool {
-    ends_in(path, &["bcc", "obj"]) || is_stage(path)
+    ends_in(path, &["bcc", "obj"]) || says_thickness(path)
 }
 
-/// Whether a path names a USD file, whose curves have a thickness of their own.
-pub(crate) fn is_stage(path: &Path) -> bool {
-    ends_in(path, &["usd", "usda", "usdc", "usdz"])
+/// Whether a path names a file of USD or TexGen, whose curves have a thickness of their own.
+pub(crate) fn says_thickness(path: &Path) -> bool {
+    ends_in(path, &["tg3", "usd", "usda", "usdc", "usdz"])
 }
 
 fn ends_in(path: &Path, endings: &[&str]) -> bool {

@@ -12,7 +12,8 @@ use super::{CurveArgs, SettingsArgs, SettlingArgs};
 #[derive(Debug, clap::Args)]
 pub(crate) struct RenderArgs {
     /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
-    /// file of saved cloth, or a .bcc or .obj file of curves that another program wrote
+    /// file of saved cloth, or a .bcc, .obj, .usda or .tg3 file of curves that another program
+    /// wrote
     pub(crate) design: PathBuf,
     /// The picture to write, a .png file; a turntable numbers its pictures: OUT-001.png and so on
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["png"]))]

@@ -165,3 +165,16 @@ impl<'a> Bytes<'a> {
         }
     }
 }
+
+/// The text of a file.
+///
+/// **Errors**: [`ReadError::Bytes`] for bytes that are not UTF-8.
+pub(super) fn utf_8<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, ReadError> {
+    str::from_utf8(bytes).map_err(|error| ReadError::Bytes {
+        file: file.into(),
+        at: error.valid_up_to() as u64,
+        field: "the text",
+        value: bytes[error.valid_up_to()..].iter().take(4).map(|byte| format!("{byte:02x}")).collect(),
+        expected: "UTF-8".into(),
+    })
+}

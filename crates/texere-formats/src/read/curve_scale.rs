@@ -8,10 +8,10 @@ use super::ReadError;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CurveScale {
     /// The length of the file's unit, mm. For coordinates in metres it is 1000. If it is not given,
-    /// a USD file says it, and it is 1 for files of any other kind.
+    /// a file of USD or TexGen says it, and it is 1 for files of any other kind.
     pub unit_mm: Option<f32>,
-    /// The diameter of all yarns, mm. If it is not given, a USD file has to say the widths. Files
-    /// of any other kind can't.
+    /// The diameter of all yarns, mm. If it is not given, a file of USD or TexGen has to say the
+    /// widths. Files of any other kind can't.
     pub diameter_mm: Option<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! Reads files of curves (BCC, OBJ's polylines, USD): yarns that other programs made.
+//! Reads files of curves (BCC, OBJ's polylines, USD, TexGen): yarns that other programs made.
 
 use std::path::Path;
 
@@ -10,6 +10,7 @@ use super::bytes::Bytes;
 use super::curve_scale::CurveScale;
 use super::file::{bytes_of, open, small};
 use super::polylines::polylines;
+use super::texgen::texgen;
 use super::usd::usd;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
 use crate::yarns_file::BYTES_MAX;
@@ -32,16 +33,23 @@ use crate::yarns_file::BYTES_MAX;
 /// points beyond the ends of a Catmull-Rom curve itself. One file is read: stages that refer to
 /// others, or have variants, are refused.
 ///
+/// A file that ends in `.tg3` is read as one of TexGen, the University of Nottingham's modeller of
+/// textiles. Each of its yarns becomes one yarn, whole and once: repeats and the domain are passed
+/// over. Its path, by Bézier curves, cubic splines or straight lines between master nodes, becomes
+/// a spline as the curves of USD do. The yarn has the width and the height of its section at each
+/// node, and its shape; a yarn whose sections have several shapes is elliptic.
+///
 /// Any other file is read as BCC, Binary Curve Collection. If a BCC or a USD file says that x or y
 /// is up, the curves are turned so that this axis becomes z.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a BCC file that is cut short, goes
 /// on after its last curve, has counts that do not fit one another, or is of another kind;
-/// [`ReadError::Word`], which names line and column, for a word that OBJ or USD does not allow at
-/// its place; [`ReadError::MissingKey`] for a file without curves, and for a BCC or an OBJ file if
-/// `scale` has no diameter; [`ReadError::Yarns`] for coordinates or a diameter that no yarn may
-/// have; [`ReadError::TooLarge`] for a file beyond 16 GiB; [`ReadError::OutOfMemory`],
-/// [`ReadError::NotAFile`], [`ReadError::Io`].
+/// [`ReadError::Word`], which names line and column, for a word that OBJ, USD or TexGen does not
+/// allow at its place; [`ReadError::Syntax`] for what is no XML; [`ReadError::Section`] for a
+/// section that no yarn may have; [`ReadError::MissingKey`] for a file without curves, and for a
+/// BCC or an OBJ file if `scale` has no diameter; [`ReadError::Yarns`] for coordinates or a
+/// diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16 GiB;
+/// [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -82,6 +90,9 @@ pub fn curves_from(name: impl AsRef<Path>, bytes: &[u8], scale: CurveScale) -> R
     };
     if is(&["obj"]) {
         return polylines(file, bytes, scale);
+    }
+    if is(&["tg3"]) {
+        return texgen(file, bytes, scale);
     }
     // The binary form is refused by its sign.
     if is(&["usd", "usda", "usdc", "usdz"]) {

@@ -28,6 +28,8 @@ mod point_paper;
 mod polylines;
 mod program_place;
 mod refusal;
+mod spline;
+mod texgen;
 mod threads;
 mod usd;
 #[cfg(feature = "wif")]

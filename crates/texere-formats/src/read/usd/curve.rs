@@ -1,6 +1,8 @@
-//! The kinds of curves that a stage may hold, and the splines of texere that have their shape.
+//! The kinds of curves that a stage may hold.
 //!
 //! **Source**: Pixar, "UsdGeomBasisCurves", openusd.org.
+
+use crate::read::spline::{Curve, Place, Shape};
 
 /// The form of curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,28 +22,6 @@ pub(super) enum Wrap {
     Periodic,
     /// The curve begins at the first vertex and ends at the last one.
     Pinned,
-}
-
-/// Coordinates and the radius at a place of a curve, mm.
-pub(super) type Place = [f64; 4];
-
-/// A curve.
-#[derive(Debug)]
-pub(super) struct Curve {
-    pub(super) shape: Shape,
-    pub(super) is_closed: bool,
-    /// Whether the file has radii at the ends of pieces alone. Between them they are as the spline
-    /// has them.
-    pub(super) has_radii_at_ends: bool,
-}
-
-/// What says where a curve runs.
-#[derive(Debug)]
-pub(super) enum Shape {
-    /// A spline of tension 0 runs through these places.
-    Through(Vec<Place>),
-    /// Bézier curves of four places each, each of which begins where the one before it ends.
-    Pieces(Vec<[Place; 4]>),
 }
 
 impl Form {

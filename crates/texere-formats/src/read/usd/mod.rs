@@ -5,7 +5,6 @@
 
 mod curve;
 mod place;
-mod spline;
 mod stage;
 mod tokens;
 mod values;
@@ -17,13 +16,14 @@ use glam::{DMat4, DVec3};
 use texere_core::backend::{room, room_for};
 use texere_core::{ControlPoint, Layout, Material, Section, Yarn, Yarns};
 
-use curve::{Curve, Form, Wrap};
-use spline::{control_points, tension};
+use curve::{Form, Wrap};
 use stage::{Curves, Prim, Stage};
 use tokens::{Token, Tokens};
 
 use super::ReadError;
+use super::bytes::utf_8;
 use super::curve_scale::CurveScale;
+use super::spline::{Curve, control_points, tension};
 
 /// How a file of the text form begins.
 const SIGN: &str = "#usda ";
@@ -33,14 +33,10 @@ const OTHERS: [&str; 2] = ["HermiteCurves", "NurbsCurves"];
 
 /// Reads the curves of a stage. Each yarn is round.
 pub(super) fn usd(file: &Path, bytes: &[u8], scale: CurveScale) -> Result<Yarns, ReadError> {
-    let text = bytes.starts_with(SIGN.as_bytes()).then(|| std::str::from_utf8(bytes));
-    let text = text.ok_or_else(|| sign(file, bytes))?.map_err(|error| ReadError::Bytes {
-        file: file.into(),
-        at: error.valid_up_to() as u64,
-        field: "the text",
-        value: bytes[error.valid_up_to()..].iter().take(4).map(|byte| format!("{byte:02x}")).collect(),
-        expected: "UTF-8".into(),
-    })?;
+    if !bytes.starts_with(SIGN.as_bytes()) {
+        return Err(sign(file, bytes));
+    }
+    let text = utf_8(file, bytes)?;
     let mut tokens = Tokens::new(file, text, SIGN.len());
     let version = tokens.next()?;
     if version.text.split('.').next() != Some("1") {

@@ -1,4 +1,4 @@
-//! The splines of texere that have the shape of a stage's curves.
+//! Curves of other programs, and the splines of texere that have their shape.
 //!
 //! A spline runs through its control points, so the ends of Bézier pieces are such points. If all
 //! curves are splines of one tension, these points are enough. Else intervals in which a spline of
@@ -7,7 +7,27 @@
 use texere_core::OutOfMemory;
 use texere_core::backend::{room, room_for};
 
-use super::curve::{Curve, Place, Shape};
+/// Coordinates and the radius at a place of a curve, mm.
+pub(super) type Place = [f64; 4];
+
+/// A curve.
+#[derive(Debug)]
+pub(super) struct Curve {
+    pub(super) shape: Shape,
+    pub(super) is_closed: bool,
+    /// Whether the file has radii at the ends of pieces alone. Between them they are as the spline
+    /// has them.
+    pub(super) has_radii_at_ends: bool,
+}
+
+/// What says where a curve runs.
+#[derive(Debug)]
+pub(super) enum Shape {
+    /// A spline of tension 0 runs through these places.
+    Through(Vec<Place>),
+    /// Bézier curves of four places each, each of which begins where the one before it ends.
+    Pieces(Vec<[Place; 4]>),
+}
 
 /// The shortest interval of a Bézier piece, in its parameter. Only corners, at which pieces meet,
 /// make intervals so short. With 1/16 the test `curves_of_every_basis_run_where_they_should` fails.
@@ -79,28 +99,38 @@ pub(super) fn control_points(curve: Curve, is_spline: bool) -> Result<Vec<Place>
         Shape::Through(places) => return Ok(places),
         Shape::Pieces(pieces) => pieces,
     };
-    let fewest = if curve.is_closed && pieces.len() < 3 { 4 } else { 1 };
-    let mut cuts = room("points of curves", fewest * pieces.len() + 1)?;
-    for (number, piece) in pieces.iter().enumerate() {
-        cuts.extend((0..fewest).map(|part| Cut::new(number, piece, part as f64 / fewest as f64)));
-    }
-    let last = pieces.iter().enumerate().next_back().filter(|_| !curve.is_closed);
-    cuts.extend(last.map(|(number, piece)| Cut::new(number, piece, 1.0)));
-    while !is_spline && let Some(more) = halved(&pieces, &cuts, curve.is_closed)? {
-        cuts = more;
-    }
+    let cuts = cuts(&pieces, curve.is_closed, is_spline)?;
     let mut places = room("points of curves", cuts.len())?;
     places.extend(cuts.iter().map(|cut| cut.place));
     Ok(places)
 }
 
+/// The places on a curve's pieces through which a spline of its shape runs: those of
+/// [`control_points`].
+///
+/// **Errors**: [`OutOfMemory`].
+pub(super) fn cuts(pieces: &[[Place; 4]], is_closed: bool, is_spline: bool) -> Result<Vec<Cut>, OutOfMemory> {
+    let fewest = if is_closed && pieces.len() < 3 { 4 } else { 1 };
+    let mut cuts = room("points of curves", fewest * pieces.len() + 1)?;
+    for (number, piece) in pieces.iter().enumerate() {
+        cuts.extend((0..fewest).map(|part| Cut::new(number, piece, part as f64 / fewest as f64)));
+    }
+    let last = pieces.iter().enumerate().next_back().filter(|_| !is_closed);
+    cuts.extend(last.map(|(number, piece)| Cut::new(number, piece, 1.0)));
+    while !is_spline && let Some(more) = halved(pieces, &cuts, is_closed)? {
+        cuts = more;
+    }
+    Ok(cuts)
+}
+
 /// A place on a Bézier piece through which the spline runs.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
-    piece: usize,
+pub(super) struct Cut {
+    /// The number of the piece.
+    pub(super) piece: usize,
     /// The parameter of the place, from 0 to 1.
-    t: f64,
-    place: Place,
+    pub(super) t: f64,
+    pub(super) place: Place,
 }
 
 impl Cut {
@@ -145,6 +175,17 @@ fn is_beside([before, start, end, after]: [Place; 4], should: Place) -> bool {
     let share = if dot(step, step) > 0.0 { dot(off, step) / dot(step, step) } else { 0.0 };
     (0..3).for_each(|axis| off[axis] -= share * step[axis]);
     dot(off, off).sqrt() > BESIDE * should[3] || off[3].abs() > THICKER * should[3]
+}
+
+/// Both parts of a Bézier curve that is cut at parameter `t` (de Casteljau).
+pub(super) fn cut_at(piece: &[Place; 4], t: f64) -> [[Place; 4]; 2] {
+    let mixed =
+        |a: Place, b: Place| -> Place { std::array::from_fn(|axis| a[axis] + (b[axis] - a[axis]) * t) };
+    let [a, b, c, d] = *piece;
+    let [ab, bc, cd] = [mixed(a, b), mixed(b, c), mixed(c, d)];
+    let [abc, bcd] = [mixed(ab, bc), mixed(bc, cd)];
+    let middle = mixed(abc, bcd);
+    [[a, ab, abc, middle], [middle, bcd, cd, d]]
 }
 
 /// The place at parameter `t` of a Bézier curve. Its ends are exact.

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use peak_alloc::PeakAlloc;
 use texere::Pipeline;
-use texere::write::Format;
+use texere::write::{Format, MeshForm, VertexAttribute};
 use texere_conformance::cases;
 use texere_core::{ControlPoint, Frame, Limits, Origin, Topology, Yarn, Yarns};
 
@@ -64,7 +64,10 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
     let device = texere::open("cpu").unwrap();
     let limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
     let told = size_of_val(yarns.points()) + 2 * (2 * (8 << 20) + (1 << 20)) + 5000 * 3000;
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
+    let formats = Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]);
+    let with =
+        [Format::Glb, Format::CompressedGlb, Format::Ply].map(|format| format.with(VertexAttribute::ALL));
+    for format in formats.map(MeshForm::from).chain(with) {
         let write = || {
             let pipeline = Pipeline::new(&yarns).sides(10).subdivisions(1).caps(true).limits(limits);
             texere::write::stream_to(pipeline, &*device, format, io::empty()).unwrap()

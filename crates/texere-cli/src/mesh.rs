@@ -16,8 +16,13 @@ use crate::{drivers, print, progress, reading, settling};
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
     if is_yarns(&args.output) || is_curves(&args.output) {
-        let packed = args.packed.then_some("--packed").or(args.compressed.then_some("--compressed"));
-        if let Some(option) = args.settings.of_a_mesh().or(packed) {
+        let own = [
+            ("--packed", args.packed),
+            ("--compressed", args.compressed),
+            ("--attributes", !args.attributes.is_empty()),
+        ];
+        let own = own.into_iter().find_map(|(option, is_given)| is_given.then_some(option));
+        if let Some(option) = args.settings.of_a_mesh().or(own) {
             return Err(Fail::needs_mesh(option, &args.output));
         }
         // Only settling needs a device here.
@@ -74,7 +79,7 @@ impl Cloth {
 
 /// The file to write, which replaces none of `files`.
 fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
-    let output = Output::to(&args.output).sparing(files);
+    let output = Output::to(&args.output).sparing(files).attributes(args.attributes.iter().copied());
     match (args.packed, args.compressed, args.linear) {
         (true, ..) => output.packed(),
         (_, true, _) => output.compressed(),

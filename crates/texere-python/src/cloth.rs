@@ -157,7 +157,8 @@ impl Cloth {
     /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
     /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
     /// yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about half of that,
-    /// for readers that know the extension ``EXT_meshopt_compression``.
+    /// for readers that know the extension ``EXT_meshopt_compression``. ``attributes`` are those of
+    /// :meth:`Mesh.write`.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
     /// mass, for simulators that read no other curves.
     ///
@@ -166,20 +167,24 @@ impl Cloth {
     /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
-    /// be written, packed or compressed; ValueError for one that is to be several of packed,
-    /// compressed and linear.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, linear=false, device="auto"))]
+    /// be written, packed or compressed or can't hold the attributes; ValueError for one that is to
+    /// be several of packed, compressed and linear, and for an unknown attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=false, attributes=Vec::new(), linear=false, device="auto"))]
+    #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
         packed: bool,
         compressed: bool,
+        attributes: Vec<String>,
         linear: bool,
         device: &str,
     ) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, packed, compressed, linear)?.sparing(self.cloth.design().files());
+        let output = mesh::output(&path, packed, compressed, linear)?
+            .attributes(mesh::named(&attributes)?)
+            .sparing(self.cloth.design().files());
         output.check().raise(py)?;
         if !yarns::is_mesh(&path)? {
             return watch::quietly(py, |_| yarns::write(yarns, output));

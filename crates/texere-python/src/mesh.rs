@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use texere::mesh::Attribute;
-use texere::write::Output;
+use texere::write::{Output, VertexAttribute};
 use texere::{Backend, Pipeline, Settings};
 
 use crate::arrays::view;
@@ -200,16 +200,27 @@ impl Mesh {
     /// vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
     /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
     /// half of that, for readers that know the extension ``EXT_meshopt_compression``.
+    /// ``attributes`` are further numbers of the vertices of a ``.glb`` or a ``.ply``: of ``uv``,
+    /// the share of a turn round the yarn and the mm along it; ``tangent``, the direction along the
+    /// yarn; ``yarn``, the yarn's number.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written,
-    /// packed or compressed; ValueError for one that is to be packed and compressed.
-    #[pyo3(signature = (path, *, packed=false, compressed=false))]
-    fn write(&self, py: Python<'_>, path: PathBuf, packed: bool, compressed: bool) -> PyResult<()> {
-        let output = output(&path, packed, compressed, false)?;
+    /// packed or compressed or can't hold the attributes; ValueError for one that is to be packed
+    /// and compressed, and for an unknown attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=false, attributes=Vec::new()))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        packed: bool,
+        compressed: bool,
+        attributes: Vec<String>,
+    ) -> PyResult<()> {
+        let output = output(&path, packed, compressed, false)?.attributes(named(&attributes)?);
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -275,6 +286,19 @@ fn places<'py>(slf: &Bound<'py, Mesh>, first: usize, end: usize) -> PyResult<Bou
     let words = ArrayView2::from_shape((attributes.len(), WORDS), cast_slice(attributes)).raise(slf.py())?;
     // SAFETY: attributes are made once, and never change.
     unsafe { view(slf.as_any(), words.slice(s![.., first..end])) }
+}
+
+/// The attributes of these names.
+///
+/// **Errors**: `ValueError` for an unknown name.
+pub(crate) fn named(attributes: &[String]) -> PyResult<Vec<VertexAttribute>> {
+    let named = |name: &String| {
+        VertexAttribute::named(name).ok_or_else(|| {
+            let known = VertexAttribute::ALL.map(VertexAttribute::name).join(", ");
+            PyValueError::new_err(format!("there is no attribute {name:?}; there are: {known}"))
+        })
+    };
+    attributes.iter().map(named).collect()
 }
 
 /// The file that a cloth, yarns or a mesh are written to.

@@ -118,6 +118,45 @@ def test_compressed_files_are_valid_and_near_plain_ones(tmp_path, opened, design
     assert_near(yarns, ours)
 
 
+@pytest.mark.parametrize("options", [{}, {"packed": True}, {"compressed": True}])
+@pytest.mark.parametrize("design", ["two-ply", "locknit"])
+def test_attributes_are_valid_and_those_of_the_mesh(tmp_path, opened, design, options):
+    mesh = texere.read(f"designs/{design}.toml").placed().mesh(sides=6, device="cpu")
+    path = tmp_path / "cloth.glb"
+    mesh.write(path, attributes=["uv", "tangent", "yarn"], **options)
+    report, yarns = opened(path)
+    assert {message["code"] for message in faults(report)} <= {"UNSUPPORTED_EXTENSION"}
+    joined = {key: numpy.concatenate([yarn[key] for yarn in yarns]) for key in ["normals", "uv", "tangents", "numbers"]}
+    # A ring has a vertex more than in the mesh, where the turn ends.
+    rings = {key: numbers.reshape(-1, 7, numbers.shape[1]) for key, numbers in joined.items()}
+    assert numpy.array_equal(rings["numbers"][:, :6].ravel(), mesh.yarn_ids)
+    turns = numpy.arange(7) / 6
+    assert numpy.abs(rings["uv"][:, :, 0] - turns).max() < 1e-6
+    # From ring to ring the way is straight, and a little shorter than the spline.
+    along = rings["uv"][:, :, 1]
+    assert numpy.ptp(along, axis=1).max() == 0.0
+    own = mesh.uv[:, 1].reshape(-1, 6)
+    assert (along[:, :6] <= own * 1.0001 + 1e-3).all() and (along[:, :6] >= 0.9 * own - 1e-3).all()
+    tangents, normals = rings["tangents"][:, :6, :3].reshape(-1, 3), rings["normals"][:, :6].reshape(-1, 3)
+    assert (rings["tangents"][:, :, 3] == -1.0).all()
+    normals = normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
+    assert numpy.abs((tangents * normals).sum(axis=1)).max() < 0.03
+    # What is left of a yarn's direction on its surface.
+    right = mesh.tangents - normals * (mesh.tangents * normals).sum(axis=1, keepdims=True)
+    right /= numpy.linalg.norm(right, axis=1, keepdims=True)
+    tangents = tangents / numpy.linalg.norm(tangents, axis=1, keepdims=True)
+    assert (tangents * right).sum(axis=1).min() > math.cos(math.radians(2.0))
+
+
+def test_attributes_are_refused_by_name(tmp_path):
+    cloth = texere.read("designs/plain.toml").placed()
+    with pytest.raises(texere.Error, match="STL can't hold texture coordinates"):
+        cloth.write(tmp_path / "cloth.stl", attributes=["uv"], device="cpu")
+    with pytest.raises(ValueError, match="no attribute"):
+        cloth.write(tmp_path / "cloth.glb", attributes=["colour"], device="cpu")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_only_glb_is_packed_and_compressed(tmp_path):
     cloth = texere.read("designs/plain.toml").placed()
     for name in ["cloth.ply", "cloth.yarns"]:

@@ -9,6 +9,7 @@
 //! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
 //! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
 //! | write a smaller `.glb` file | [`Output::packed`], [`Output::compressed`] |
+//! | give vertices texture coordinates, tangents or numbers of yarns | [`Output::attributes`], [`Format::with`] |
 //! | write curves for a simulator that reads straight lines alone | [`Output::linear`] |
 //! | save yarns, such as cloth at rest, or a repeat of them | [`yarns`], [`repeat`] |
 //! | write centrelines for a simulator or a renderer | [`curves`], [`curves_to`] |
@@ -32,8 +33,8 @@
 //! ```
 
 pub use texere_formats::write::{
-    CurveFormat, Format, Output, Written, abandon, curves, curves_to, file, folder, mesh_to, repeat,
-    repeat_to, run, run_to, stream, stream_to, vacant, yarns, yarns_to,
+    CurveFormat, Format, MeshForm, Output, VertexAttribute, Written, abandon, curves, curves_to, file,
+    folder, mesh_to, repeat, repeat_to, run, run_to, stream, stream_to, vacant, yarns, yarns_to,
 };
 #[cfg(feature = "pictures")]
 pub use texere_formats::write::{

@@ -12,7 +12,9 @@ mod view;
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
+use texere::write::VertexAttribute;
 
 pub(crate) use bake::BakeArgs;
 pub(crate) use curves::CurveArgs;
@@ -128,6 +130,11 @@ pub(crate) struct MeshArgs {
     /// EXT_meshopt_compression says. Programs that don't know the extension refuse the file
     #[arg(long, conflicts_with = "packed")]
     pub(crate) compressed: bool,
+    /// Give the vertices of a .glb or a .ply attributes, with commas between: uv is the share of a
+    /// turn round the yarn and the mm along it, tangent the direction along the yarn, yarn the
+    /// yarn's number, counted from 0. An .obj holds uv alone, which it always has
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = vertex_attribute())]
+    pub(crate) attributes: Vec<VertexAttribute>,
     /// Write the curves of a .usda file as straight lines between control points, with thickness
     /// and mass, for simulators that read no other curves
     #[arg(long, conflicts_with_all = ["packed", "compressed"])]
@@ -168,6 +175,13 @@ pub(crate) struct ConvertArgs {
     /// came from a knitout program
     #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml", "k", "knitout"]))]
     pub(crate) output: PathBuf,
+}
+
+/// The parser of a vertex attribute's name.
+fn vertex_attribute() -> impl TypedValueParser<Value = VertexAttribute> {
+    let unknown = "there is no such attribute";
+    PossibleValuesParser::new(VertexAttribute::ALL.map(VertexAttribute::name))
+        .try_map(move |name| VertexAttribute::named(&name).ok_or(unknown))
 }
 
 /// A number from 0 to below 1.

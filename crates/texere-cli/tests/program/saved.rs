@@ -14,9 +14,13 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
         fs::write(&design, text).unwrap();
         let said = stdout(&texere(&["mesh", &design, "--device", "cpu", "-o", &saved]));
         assert!(said.contains("settling: ") && said.contains(" control points, "), "{said}");
-        for (ending, option) in
-            [("ply", "--caps"), ("glb", "--caps"), ("glb", "--packed"), ("glb", "--compressed")]
-        {
+        for (ending, option) in [
+            ("ply", "--caps"),
+            ("glb", "--caps"),
+            ("glb", "--packed"),
+            ("glb", "--compressed"),
+            ("ply", "--attributes=uv,tangent,yarn"),
+        ] {
             let [own, other] = ["own", "other"].map(|which| path(&format!("{name}-{which}.{ending}")));
             for (input, output) in [(&design, &own), (&saved, &other)] {
                 stdout(&texere(&["mesh", input, "--device", "cpu", option, "-o", output]));
@@ -84,7 +88,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 23] = [
+    let cases: [(&[&str], i32, &str); 26] = [
         (&["inspect", &saved], 3, alone),
         (&["check", &saved], 3, alone),
         (&["draft", &saved, "--text"], 3, alone),
@@ -101,6 +105,13 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
         (&["mesh", &saved, "-o", &other, "--compressed"], 2, "--compressed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--compressed"], 2, "does not end in .glb"),
+        (&["mesh", &saved, "-o", &other, "--attributes", "uv"], 2, "--attributes needs a mesh"),
+        (&["mesh", &design, "-o", &ply, "--attributes", "uv,colour"], 2, "invalid value 'colour'"),
+        (
+            &["mesh", &design, "-o", &path("cloth.stl"), "--attributes", "uv"],
+            2,
+            "STL can't hold texture coordinates",
+        ),
         (&["mesh", &design, "-o", &ply, "--linear"], 2, "does not end in .usda"),
         (&["mesh", &saved, "-o", &path("cloth.bcc"), "--linear"], 2, "does not end in .usda"),
         (&["mesh", &design, "-o", &other, "--sides", "9"], 2, "--sides needs a mesh"),

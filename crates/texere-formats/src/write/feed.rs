@@ -7,40 +7,43 @@ use std::io::{Seek, Write};
 use texere_core::backend::{Chunk, Plan};
 use texere_core::{Material, Vertex};
 
+#[cfg(any(feature = "glb", feature = "obj", feature = "ply", feature = "stl"))]
+use super::Format;
+use super::WriteError;
 use super::bounds::Bounds;
 #[cfg(feature = "glb")]
 use super::glb::{CompressedGlbWriter, GlbWriter};
+use super::mesh_form::MeshForm;
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 #[cfg(feature = "obj")]
 use super::obj::{ObjWriter, library_name};
-use super::places::Places;
+use super::places::{Places, RingForm};
 #[cfg(feature = "ply")]
 use super::ply::PlyWriter;
 #[cfg(feature = "stl")]
 use super::stl::StlWriter;
 use super::target::Target;
-use super::{Format, WriteError};
 
-/// Starts a file of `format`.
+/// Starts a file of `form`.
 fn writer<'a, W: Write + Seek + 'a>(
-    format: Format,
+    form: MeshForm,
     target: Target<W>,
     plan: &'a Plan,
     chunks: impl Iterator<Item = impl Borrow<Chunk>>,
     materials: &'a [Material],
     bounds: Option<&Bounds>,
 ) -> Result<Box<dyn MeshWriter<W> + 'a>, WriteError> {
-    match format {
+    match form.format {
         #[cfg(feature = "glb")]
         Format::Glb | Format::PackedGlb => {
-            Ok(Box::new(GlbWriter::start(target, plan, chunks, materials, bounds)?))
+            Ok(Box::new(GlbWriter::start(target, plan, chunks, materials, form, bounds)?))
         }
         #[cfg(feature = "glb")]
         Format::CompressedGlb => {
-            Ok(Box::new(CompressedGlbWriter::start(target, plan, chunks, materials, bounds)?))
+            Ok(Box::new(CompressedGlbWriter::start(target, plan, chunks, materials, form, bounds)?))
         }
         #[cfg(feature = "ply")]
-        Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials)?)),
+        Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials, form)?)),
         #[cfg(feature = "stl")]
         Format::Stl => Ok(Box::new(StlWriter::start(target, plan)?)),
         #[cfg(feature = "obj")]
@@ -72,6 +75,8 @@ pub(super) struct Feed<'a, W: Write + Seek> {
     writer: Box<dyn MeshWriter<W> + 'a>,
     places: Places,
     sides: u32,
+    /// Whether the next chunk begins with a ring that the chunk before repeats.
+    goes_on: bool,
     given: u64,
     planned: u64,
 }
@@ -80,7 +85,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
     /// Starts a file for the mesh of `plan`, cut into `chunks`. [`check`] has passed. A packed
     /// format needs the `bounds` of all yarns. Others have none.
     pub(super) fn open(
-        format: Format,
+        form: MeshForm,
         target: Target<W>,
         plan: &'a Plan,
         chunks: impl IntoIterator<Item = impl Borrow<Chunk>>,
@@ -89,13 +94,14 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
     ) -> Result<Self, WriteError> {
         let mut planned = 0;
         let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
-        let writer = writer(format, target, plan, &mut chunks, materials, bounds)?;
+        let writer = writer(form, target, plan, &mut chunks, materials, bounds)?;
         // Chunks that the writer has not gone through count as well.
         chunks.for_each(drop);
         if planned < plan.counts().vertices {
             return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
         }
-        Ok(Self { writer, places: Places::new(plan), sides: plan.settings().sides, given: 0, planned })
+        let places = Places::new(plan, RingForm::new(plan, form.has_seam()));
+        Ok(Self { writer, places, sides: plan.settings().sides, goes_on: false, given: 0, planned })
     }
 
     /// Passes `vertices` to the writer. They are those of `chunk` from number `first` on.
@@ -129,6 +135,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
                 let vertices = &vertices[(from - first) as usize..(to - first) as usize];
                 self.writer.vertices(Run {
                     chunk,
+                    goes_on: self.goes_on,
                     first: from,
                     place: self.places.of(chunk, from),
                     vertices,
@@ -138,6 +145,7 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         if end == chunk.vertices() {
             self.writer.triangles(chunk, &self.places)?;
             self.places.pass(chunk);
+            self.goes_on = chunk.repeats_ring();
         }
         Ok(())
     }

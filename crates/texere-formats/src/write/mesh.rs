@@ -9,8 +9,10 @@ use texere_core::{Backend, Material, Mesh, MeshPiece, Pipeline, PipelineError, T
 use super::beside::Beside;
 use super::bounds::Bounds;
 use super::feed::{self, Feed};
+use super::mesh_form::MeshForm;
+use super::places::RingForm;
 use super::target::Target;
-use super::{Format, Output, WriteError};
+use super::{Output, WriteError};
 
 /// How much was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,9 +50,9 @@ pub struct Written {
 /// ```
 pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
     let output = output.into();
-    let format = output.format()?;
-    let beside = Beside::of(format, &output, &mesh.materials)?;
-    let target = whole(mesh, format, || Target::create(output))?;
+    let form = output.mesh_form()?;
+    let beside = Beside::of(form.format, &output, &mesh.materials)?;
+    let target = whole(mesh, form, || Target::create(output))?;
     beside.commit(target)?;
     Ok(())
 }
@@ -74,21 +76,22 @@ pub fn mesh(mesh: &Mesh, output: impl Into<Output>) -> Result<(), WriteError> {
 /// assert!(glb.into_inner().starts_with(b"glTF"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn mesh_to(mesh: &Mesh, format: Format, out: impl Write + Seek) -> Result<(), WriteError> {
-    whole(mesh, format, || Target::within(out))?.close()?;
+pub fn mesh_to(mesh: &Mesh, form: impl Into<MeshForm>, out: impl Write + Seek) -> Result<(), WriteError> {
+    whole(mesh, form.into(), || Target::within(out))?.close()?;
     Ok(())
 }
 
 /// Writes a mesh to the target that `start` gives.
 fn whole<W: Write + Seek>(
     mesh: &Mesh,
-    format: Format,
+    form: MeshForm,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<Target<W>, WriteError> {
+    form.format.check_holds(form.attributes)?;
     feed::check(&mesh.plan, &mesh.materials)?;
     let target = start()?;
-    let bounds = if format.is_packed() { Some(bounds(mesh)?) } else { None };
-    let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
+    let bounds = if form.format.is_packed() { Some(bounds(mesh)?) } else { None };
+    let mut feed = Feed::open(form, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
         return Err(WriteError::VertexCount { given, planned });
@@ -126,7 +129,7 @@ pub fn stream(
     output: impl Into<Output>,
 ) -> Result<Written, WriteError> {
     let output = output.into();
-    output.format()?;
+    output.mesh_form()?;
     output.check()?;
     let materials = pipeline.yarns().materials().clone();
     run(pipeline.topology(Topology::Shared).into_run(device)?, &materials, output)
@@ -155,11 +158,11 @@ pub fn stream(
 pub fn stream_to(
     pipeline: Pipeline<'_>,
     device: &dyn Backend,
-    format: Format,
+    form: impl Into<MeshForm>,
     out: impl Write + Seek,
 ) -> Result<Written, WriteError> {
     let materials = pipeline.yarns().materials().clone();
-    run_to(pipeline.topology(Topology::Shared).into_run(device)?, &materials, format, out)
+    run_to(pipeline.topology(Topology::Shared).into_run(device)?, &materials, form, out)
 }
 
 /// Writes the mesh of a [run](Run) piece by piece, in the format that the extension of `output`
@@ -191,9 +194,9 @@ pub fn stream_to(
 /// ```
 pub fn run(run: Run<'_>, materials: &[Material], output: impl Into<Output>) -> Result<Written, WriteError> {
     let output = output.into();
-    let format = output.format()?;
-    let beside = Beside::of(format, &output, materials)?;
-    let (target, written) = streamed(run, materials, format, || Target::create(output))?;
+    let form = output.mesh_form()?;
+    let beside = Beside::of(form.format, &output, materials)?;
+    let (target, written) = streamed(run, materials, form, || Target::create(output))?;
     Ok(Written { bytes: beside.commit(target)?, ..written })
 }
 
@@ -204,10 +207,10 @@ pub fn run(run: Run<'_>, materials: &[Material], output: impl Into<Output>) -> R
 pub fn run_to(
     run: Run<'_>,
     materials: &[Material],
-    format: Format,
+    form: impl Into<MeshForm>,
     out: impl Write + Seek,
 ) -> Result<Written, WriteError> {
-    let (target, written) = streamed(run, materials, format, || Target::within(out))?;
+    let (target, written) = streamed(run, materials, form.into(), || Target::within(out))?;
     Ok(Written { bytes: target.close()?, ..written })
 }
 
@@ -216,15 +219,16 @@ pub fn run_to(
 fn streamed<W: Write + Seek>(
     mut run: Run<'_>,
     materials: &[Material],
-    format: Format,
+    form: MeshForm,
     start: impl FnOnce() -> Result<Target<W>, WriteError>,
 ) -> Result<(Target<W>, Written), WriteError> {
     let (plan, limits) = (run.plan().clone(), run.limits());
     let chunks = || plan.chunks(&limits).map_err(PipelineError::from);
+    form.format.check_holds(form.attributes)?;
     feed::check(&plan, materials)?;
     let target = start()?;
-    let bounds = if format.is_packed() { Some(survey(&mut run, chunks()?)?) } else { None };
-    let mut feed = Feed::open(format, target, &plan, chunks()?, materials, bounds.as_ref())?;
+    let bounds = if form.format.is_packed() { Some(survey(&mut run, chunks()?)?) } else { None };
+    let mut feed = Feed::open(form, target, &plan, chunks()?, materials, bounds.as_ref())?;
     let answer = run.stream(chunks()?, |chunk, piece| {
         let fed = match piece {
             MeshPiece::Vertices { first, vertices } => feed.vertices(chunk, first, vertices),
@@ -238,8 +242,8 @@ fn streamed<W: Write + Seek>(
     if let ControlFlow::Break(error) = answer {
         return Err(error);
     }
-    let counts = plan.counts();
-    let written = Written { bytes: 0, vertices: counts.vertices, triangles: counts.triangles };
+    let vertices = RingForm::new(&plan, form.has_seam()).vertices(&plan);
+    let written = Written { bytes: 0, vertices, triangles: plan.counts().triangles };
     Ok((feed.finish()?, written))
 }
 

@@ -13,6 +13,8 @@ use super::target::Target;
 /// Vertices that follow one another both in a chunk and in the file.
 pub(super) struct Run<'a> {
     pub(super) chunk: &'a Chunk,
+    /// Whether the chunk begins with a ring that the chunk before repeats.
+    pub(super) goes_on: bool,
     /// The number of the first vertex in its chunk.
     pub(super) first: u32,
     /// The number of the first vertex in the file.

@@ -8,6 +8,9 @@
 //! | binary STL | `.stl` | `stl` | the triangles alone, each with its corners; millimetres |
 //! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |
 //!
+//! Vertices of a GLB and of a PLY may have [attributes](Output::attributes): texture coordinates,
+//! tangents, numbers of yarns.
+//!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of designs: woven ones as
 //! [WIF](fn@wif), weft knits that came from knitout as [knitout](fn@knitout), and woven cloth,
@@ -43,6 +46,8 @@
 
 mod beside;
 mod bounds;
+#[cfg(any(feature = "glb", feature = "obj", feature = "ply"))]
+mod corners;
 mod curve_format;
 mod curves;
 #[cfg(any(feature = "knitout", feature = "wif"))]
@@ -57,6 +62,7 @@ mod format;
 #[cfg(feature = "glb")]
 mod glb;
 mod mesh;
+mod mesh_form;
 mod mesh_writer;
 #[cfg(feature = "obj")]
 mod obj;
@@ -93,6 +99,7 @@ pub use file::file;
 pub use folder::{folder, vacant};
 pub use format::Format;
 pub use mesh::{Written, mesh, mesh_to, run, run_to, stream, stream_to};
+pub use mesh_form::{MeshForm, VertexAttribute};
 pub use output::Output;
 #[cfg(feature = "pictures")]
 pub use picture::{picture, picture_to};

@@ -9,6 +9,7 @@ use same_file::Handle;
 use super::curve_format::CurveFormat;
 use super::error::WriteError;
 use super::format::Format;
+use super::mesh_form::{Attributes, MeshForm, VertexAttribute};
 
 /// The target of a write, and the files that it must not replace, such as those that the design was
 /// read from.
@@ -30,6 +31,7 @@ pub struct Output {
     path: PathBuf,
     spared: Vec<PathBuf>,
     form: Form,
+    attributes: Attributes,
 }
 
 /// How a file is written, if its format has several ways.
@@ -45,7 +47,8 @@ impl Output {
     /// A file at `path`. If `path` is a symbolic link, the output is the file that the link leads
     /// to.
     pub fn to(path: impl AsRef<Path>) -> Self {
-        Self { path: path.as_ref().to_owned(), spared: Vec::new(), form: Form::Plain }
+        let path = path.as_ref().to_owned();
+        Self { path, spared: Vec::new(), form: Form::Plain, attributes: Attributes::default() }
     }
 
     /// Does not replace any of `files`, even under another name: another spelling, a hard link or a
@@ -124,23 +127,50 @@ impl Output {
         self
     }
 
-    /// The format of a mesh at this output.
+    /// Gives vertices of a mesh `attributes`, in a `.glb` or a `.ply` file. Further calls add
+    /// attributes.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] for an ending that
-    /// has no such form.
-    pub(super) fn format(&self) -> Result<Format, WriteError> {
+    /// ```
+    /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_formats::WriteError;
+    /// use texere_formats::write::{self, Output, VertexAttribute};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let path = folder.path().join("yarn.ply");
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// let mesh = Pipeline::new(&yarns.build()?).mesh(&ParallelBackend::open()?)?;
+    /// write::mesh(&mesh, Output::to(&path).attributes(VertexAttribute::ALL))?;
+    /// assert!(String::from_utf8_lossy(&std::fs::read(&path)?).contains("property float s\n"));
+    /// let stl = Output::to(path.with_extension("stl")).attributes([VertexAttribute::Uv]);
+    /// let error = write::mesh(&mesh, stl).unwrap_err();
+    /// assert_eq!(error.to_string(), "STL can't hold texture coordinates");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn attributes(mut self, attributes: impl IntoIterator<Item = VertexAttribute>) -> Self {
+        self.attributes.add(attributes);
+        self
+    }
+
+    /// The format of a mesh at this output, and the attributes of its vertices.
+    ///
+    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] for an ending that has
+    /// no such form, and [`WriteError::Unheld`] for attributes that the format can't hold.
+    pub(super) fn mesh_form(&self) -> Result<MeshForm, WriteError> {
         self.check_form()?;
-        match self.form {
-            Form::Packed => Ok(Format::PackedGlb),
-            Form::Compressed => Ok(Format::CompressedGlb),
-            Form::Plain | Form::Linear => Format::from_path(&self.path),
-        }
+        let format = match self.form {
+            Form::Packed => Format::PackedGlb,
+            Form::Compressed => Format::CompressedGlb,
+            Form::Plain | Form::Linear => Format::from_path(&self.path)?,
+        };
+        Ok(MeshForm { format, attributes: self.attributes })
     }
 
     /// The format of curves at this output.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], and [`WriteError::NotEnding`] for an ending that
-    /// has no such form.
+    /// **Errors**: [`WriteError::UnknownFormat`], also if vertices are to have attributes, and
+    /// [`WriteError::NotEnding`] for an ending that has no such form.
     pub(super) fn curve_format(&self) -> Result<CurveFormat, WriteError> {
         self.check_form()?;
         match self.form {
@@ -149,8 +179,12 @@ impl Output {
         }
     }
 
-    /// Checks that the path has the ending that its form needs.
+    /// Checks that the path has the ending that its form needs, and that a mesh of this ending
+    /// holds the attributes, if there are any.
     fn check_form(&self) -> Result<(), WriteError> {
+        if self.attributes.any() {
+            Format::from_path(&self.path)?.check_holds(self.attributes)?;
+        }
         let expected = match self.form {
             Form::Plain => return Ok(()),
             Form::Packed => Format::PackedGlb.extension(),
@@ -170,16 +204,17 @@ impl Output {
     /// not.
     #[cfg(feature = "obj")]
     pub(super) fn beside(&self, extension: &str) -> Self {
-        Self { path: self.path.with_extension(extension), spared: self.spared.clone(), form: Form::Plain }
+        Self { spared: self.spared.clone(), ..Self::to(self.path.with_extension(extension)) }
     }
 
     /// Checks whether a file may be written at the path now. The check is meant for a program that
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed,
-    /// compressed or linear, [`WriteError::Spared`], and [`WriteError::Io`] if there is no such
-    /// folder, if the path is no file that may be replaced, or if a spared file can't be looked at.
+    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed, compressed or
+    /// linear; [`WriteError::UnknownFormat`] and [`WriteError::Unheld`] for one that can't hold the
+    /// attributes; [`WriteError::Spared`]; and [`WriteError::Io`] if there is no such folder, if
+    /// the path is no file that may be replaced, or if a spared file can't be looked at.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }

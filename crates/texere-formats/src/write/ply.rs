@@ -7,15 +7,17 @@ use std::io::{Seek, Write};
 
 use texere_core::Material;
 use texere_core::backend::{Chunk, Plan};
-use texere_core::definitions::index_pattern;
 
 use super::WriteError;
-use super::mesh_writer::{MeshWriter, Run, yarn_runs};
-use super::places::Places;
+use super::corners::Corners;
+use super::mesh_form::{Attributes, MeshForm};
+use super::mesh_writer::{MeshWriter, Run};
+use super::places::{Places, RingForm};
 use super::target::Target;
 
-/// Bytes of a vertex: six floats and three colour bytes.
-const VERTEX_BYTES: usize = 27;
+/// The most bytes of a vertex: six floats, texture coordinates, a tangent, the number of a yarn and
+/// three colour bytes.
+const VERTEX_BYTES_MOST: usize = 51;
 
 /// Bytes of a triangle: a byte for the count of corners, and three vertex numbers.
 const FACE_BYTES: usize = 13;
@@ -33,8 +35,9 @@ pub(super) struct PlyWriter<'a, W: Write + Seek> {
     target: Target<W>,
     plan: &'a Plan,
     materials: &'a [Material],
-    /// The quads between a ring and the next.
-    quads: Vec<u32>,
+    ring: RingForm,
+    attributes: Attributes,
+    corners: Corners,
     vertices_at: u64,
     next_tube_face_at: u64,
     next_cap_face_at: u64,
@@ -45,23 +48,28 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
         mut target: Target<W>,
         plan: &'a Plan,
         materials: &'a [Material],
+        form: MeshForm,
     ) -> Result<Self, WriteError> {
         let (counts, sides) = (plan.counts(), plan.settings().sides);
-        if counts.vertices > VERTICES_MAX {
-            let (format, vertices) = ("PLY", counts.vertices);
+        let ring = RingForm::new(plan, form.has_seam());
+        let vertices = ring.vertices(plan);
+        if vertices > VERTICES_MAX {
+            let format = "PLY";
             return Err(WriteError::TooManyVertices { format, vertices, limit: VERTICES_MAX });
         }
-        let header = header(counts.vertices, counts.triangles);
+        let header = header(vertices, counts.triangles, form.attributes);
         target.write(header.as_bytes())?;
         let vertices_at = header.len() as u64;
-        let faces_at = vertices_at + counts.vertices * VERTEX_BYTES as u64;
+        let faces_at = vertices_at + vertices * vertex_bytes(form.attributes);
         let caps = counts.vertices / u64::from(sides) - counts.rings;
         let tube_faces = counts.triangles - caps * u64::from(sides - 2);
         Ok(Self {
             target,
             plan,
             materials,
-            quads: index_pattern(sides),
+            ring,
+            attributes: form.attributes,
+            corners: Corners::new(plan, form.attributes, ring),
             vertices_at,
             next_tube_face_at: faces_at,
             next_cap_face_at: faces_at + tube_faces * FACE_BYTES as u64,
@@ -84,33 +92,46 @@ impl<'a, W: Write + Seek> PlyWriter<'a, W> {
 
 impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
-        self.target.go_to(self.vertices_at + run.place * VERTEX_BYTES as u64)?;
-        let sides = self.plan.settings().sides;
-        for (yarn, own) in yarn_runs(run.chunk, sides, run.first, run.vertices.len()) {
-            let colour = self.materials[self.plan.yarn(yarn as usize).material as usize].srgb;
-            for vertex in &run.vertices[own] {
-                let mut bytes = [0; VERTEX_BYTES];
-                let floats: [f32; 6] = bytemuck::cast(*vertex);
-                for (place, float) in bytes.chunks_exact_mut(4).zip(floats) {
-                    place.copy_from_slice(&float.to_le_bytes());
+        let Attributes { uv, tangent, yarn } = self.attributes;
+        let vertex_bytes = vertex_bytes(self.attributes);
+        let Self { target, plan, materials, corners, vertices_at, .. } = self;
+        corners.each(&run, |batch| {
+            target.go_to(*vertices_at + batch.place * vertex_bytes)?;
+            let colour = materials[plan.yarn(batch.yarn as usize).material as usize].srgb;
+            for (vertex, surface) in batch.vertices.iter().zip(batch.surfaces()) {
+                let mut bytes = [0; VERTEX_BYTES_MOST];
+                let mut end = 0;
+                let mut put = |property: &[u8]| {
+                    bytes[end..end + property.len()].copy_from_slice(property);
+                    end += property.len();
+                };
+                let mut floats = |floats: &[f32]| floats.iter().for_each(|float| put(&float.to_le_bytes()));
+                floats(&bytemuck::cast::<_, [f32; 6]>(*vertex));
+                if uv {
+                    floats(&surface.uv);
                 }
-                bytes[24..].copy_from_slice(&colour);
-                self.target.write(&bytes)?;
+                if tangent {
+                    floats(&surface.tangent);
+                }
+                if yarn {
+                    put(&batch.yarn.to_le_bytes());
+                }
+                put(&colour);
+                target.write(&bytes[..end])?;
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError> {
-        let quads = std::mem::take(&mut self.quads);
+        let quads = self.ring.quads();
         self.target.go_to(self.next_tube_face_at)?;
         for part in chunk.parts() {
             let first = places.of(chunk, part.first_vertex);
             for gap in 0..u64::from(part.rings) - 1 {
-                self.faces(first + gap * u64::from(self.plan.settings().sides), &quads)?;
+                self.faces(first + gap * u64::from(self.ring.corners), &quads)?;
             }
         }
-        self.quads = quads;
         self.next_tube_face_at = self.target.position();
         self.target.go_to(self.next_cap_face_at)?;
         for cap in chunk.caps() {
@@ -127,25 +148,35 @@ impl<W: Write + Seek> MeshWriter<W> for PlyWriter<'_, W> {
     }
 }
 
-fn header(vertices: u64, faces: u64) -> String {
+/// Bytes of a vertex.
+fn vertex_bytes(Attributes { uv, tangent, yarn }: Attributes) -> u64 {
+    27 + if uv { 8 } else { 0 } + if tangent { 12 } else { 0 } + if yarn { 4 } else { 0 }
+}
+
+fn header(vertices: u64, faces: u64, Attributes { uv, tangent, yarn }: Attributes) -> String {
     // Some readers do not support unsigned vertex numbers. Signed numbers are written if all
     // numbers fit.
     let number = if vertices <= 1 << 31 { "int" } else { "uint" };
+    let mut properties = ["x", "y", "z", "nx", "ny", "nz"].map(|name| ("float", name)).to_vec();
+    if uv {
+        properties.extend([("float", "s"), ("float", "t")]);
+    }
+    if tangent {
+        properties.extend([("float", "tx"), ("float", "ty"), ("float", "tz")]);
+    }
+    if yarn {
+        properties.push(("uint", "yarn"));
+    }
+    properties.extend(["red", "green", "blue"].map(|name| ("uchar", name)));
+    let properties: String =
+        properties.iter().map(|(kind, name)| format!("property {kind} {name}\n")).collect();
     format!(
         "ply\n\
          format binary_little_endian 1.0\n\
          comment texere {version}\n\
          comment unit mm; x along the weft or course, y along the warp or wale, z out of the face\n\
          element vertex {vertices}\n\
-         property float x\n\
-         property float y\n\
-         property float z\n\
-         property float nx\n\
-         property float ny\n\
-         property float nz\n\
-         property uchar red\n\
-         property uchar green\n\
-         property uchar blue\n\
+         {properties}\
          element face {faces}\n\
          property list uchar {number} vertex_indices\n\
          end_header\n",

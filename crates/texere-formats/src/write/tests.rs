@@ -11,7 +11,7 @@ use texere_cpu::SerialBackend;
 use super::bounds::Bounds;
 use super::feed::Feed;
 use super::target::Target;
-use super::{Format, WriteError};
+use super::{Format, MeshForm, VertexAttribute, WriteError};
 
 /// A file on a disk that is full after `room` bytes more.
 #[derive(Debug)]
@@ -61,7 +61,8 @@ fn mesh() -> Mesh {
 
 /// Writes `mesh` to `out` in pieces of at most `piece` vertices, some of them empty. The last step,
 /// by which the file takes its place, is left out.
-fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Failing, WriteError> {
+fn write(mesh: &Mesh, form: impl Into<MeshForm>, piece: usize, out: Failing) -> Result<Failing, WriteError> {
+    let form = form.into();
     let target = Target::over(out, 0, Some("fabric".into()));
     let mut bounds = Bounds::new(&mesh.plan)?;
     for chunk in &mesh.chunks {
@@ -71,8 +72,8 @@ fn write(mesh: &Mesh, format: Format, piece: usize, out: Failing) -> Result<Fail
             &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize],
         );
     }
-    let bounds = format.is_packed().then_some(&bounds);
-    let mut feed = Feed::open(format, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds)?;
+    let bounds = form.format.is_packed().then_some(&bounds);
+    let mut feed = Feed::open(form, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds)?;
     for chunk in &mesh.chunks {
         let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
         for (number, vertices) in own.chunks(piece).enumerate() {
@@ -109,14 +110,17 @@ fn a_full_disk_is_an_error_at_any_byte() {
 fn pieces_of_any_size_give_the_same_file() {
     let mesh = mesh();
     let folder = tempfile::tempdir().unwrap();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
+    let formats = Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]);
+    let with = [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply]
+        .map(|format| format.with(VertexAttribute::ALL));
+    for form in formats.map(MeshForm::from).chain(with) {
         let file = |piece| {
             let out = Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room: usize::MAX };
-            fs::read(write(&mesh, format, piece, out).unwrap().file.path()).unwrap()
+            fs::read(write(&mesh, form, piece, out).unwrap().file.path()).unwrap()
         };
         let whole = file(usize::MAX);
         for piece in [1, 7, 384, 1000] {
-            assert!(file(piece) == whole, "{format:?} in pieces of {piece}");
+            assert!(file(piece) == whole, "{form:?} in pieces of {piece}");
         }
     }
 }
@@ -126,7 +130,8 @@ fn a_piece_out_of_order_is_refused() {
     let mesh = mesh();
     let out = Failing { file: NamedTempFile::new().unwrap(), room: usize::MAX };
     let target = Target::over(out, 0, Some("fabric".into()));
-    let mut feed = Feed::open(Format::Ply, target, &mesh.plan, &mesh.chunks, &mesh.materials, None).unwrap();
+    let mut feed =
+        Feed::open(Format::Ply.into(), target, &mesh.plan, &mesh.chunks, &mesh.materials, None).unwrap();
     feed.vertices(&mesh.chunks[0], 0, &mesh.vertices[..6]).unwrap();
     let error = feed.vertices(&mesh.chunks[0], 12, &mesh.vertices[12..18]).unwrap_err();
     assert!(matches!(error, WriteError::VertexCount { given: 6, .. }), "{error:?}");

@@ -1,6 +1,7 @@
 //! Written files, read back by other readers; and the files that are left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
+mod attributes;
 mod compressed;
 mod designs;
 mod draft;

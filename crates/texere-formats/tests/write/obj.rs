@@ -15,7 +15,7 @@ use crate::fabric::{Triangle, fabric, long_yarn, pipeline, region, triangles, wa
 pub(crate) struct File {
     pub(crate) positions: Vec<[u32; 3]>,
     normals: Vec<[u32; 3]>,
-    coordinates: Vec<[f32; 2]>,
+    pub(crate) coordinates: Vec<[f32; 2]>,
     pub(crate) faces: Vec<Face>,
     library: String,
 }

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use gltf::{Gltf, Semantic};
 use texere_core::{ControlPoint, Limits, Mesh, Pipeline, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
-use texere_formats::write::{self, Format, Output};
+use texere_formats::write::{self, Format, Output, VertexAttribute};
 
 use crate::fabric::{fabric, long_yarn, pipeline, region, triangles, ways, whole};
 use crate::unpack::unpack;
@@ -53,7 +53,9 @@ fn ply_triangles(bytes: &[u8]) -> (usize, impl Iterator<Item = [usize; 3]>) {
     let number = |element: &str| text.split(element).nth(1).unwrap().lines().next().unwrap().parse().unwrap();
     let (vertices, triangles): (usize, usize) = (number("element vertex "), number("element face "));
     // A vertex has six floats and three bytes. A triangle has a byte and three numbers.
-    let faces = bytes[end + vertices * 27..].chunks_exact(13);
+    // With attributes it has six floats and a number more.
+    let vertex_bytes = if text.contains("yarn") { 51 } else { 27 };
+    let faces = bytes[end + vertices * vertex_bytes..].chunks_exact(13);
     assert_eq!((faces.len(), faces.remainder().len()), (triangles, 0));
     let corner =
         |face: &[u8], k: usize| u32::from_le_bytes(face[1 + 4 * k..][..4].try_into().unwrap()) as usize;
@@ -118,20 +120,26 @@ fn of_obj(bytes: &[u8]) -> usize {
     Pieces::of(file.positions.len(), corners).count()
 }
 
-/// Calls `check` with the files of `mesh` and of `stream` in each format.
-fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, Vec<u8>)) {
+/// Calls `check` with the files of `mesh` and of `stream` in each format, without attributes, and
+/// with all of them if the format holds them.
+fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, bool, Vec<u8>)) {
     let folder = tempfile::tempdir().unwrap();
     for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
         let path = folder.path().join("fabric").with_extension(format.extension());
-        let output = || match format {
-            Format::PackedGlb => Output::to(&path).packed(),
-            Format::CompressedGlb => Output::to(&path).compressed(),
-            _ => Output::to(&path),
-        };
-        write::stream(make(), &SerialBackend::new(), output()).unwrap();
-        check(format, std::fs::read(&path).unwrap());
-        write::mesh(&make().mesh(&SerialBackend::new()).unwrap(), output()).unwrap();
-        check(format, std::fs::read(&path).unwrap());
+        let holds = !matches!(format, Format::Stl | Format::Obj);
+        for with in [false, true].into_iter().take(1 + usize::from(holds)) {
+            let output = || match format {
+                Format::PackedGlb => Output::to(&path).packed(),
+                Format::CompressedGlb => Output::to(&path).compressed(),
+                _ => Output::to(&path),
+            };
+            let attributes = VertexAttribute::ALL.into_iter().filter(|_| with);
+            let output = || output().attributes(attributes.clone());
+            write::stream(make(), &SerialBackend::new(), output()).unwrap();
+            check(format, with, std::fs::read(&path).unwrap());
+            write::mesh(&make().mesh(&SerialBackend::new()).unwrap(), output()).unwrap();
+            check(format, with, std::fs::read(&path).unwrap());
+        }
     }
 }
 
@@ -164,10 +172,10 @@ fn a_yarn_is_one_piece_however_it_is_cut() {
             let expected = yarns.layout().yarns().len() + if caps { 2 * open } else { 0 };
             each_file(
                 || pipeline(yarns, caps, way),
-                |format, bytes| {
+                |format, with, bytes| {
                     let expected =
                         if format == Format::Stl { by_place(&whole(yarns, caps)) } else { expected };
-                    assert_eq!(pieces(format, &bytes), expected, "{format:?}, caps {caps}, {way:?}")
+                    assert_eq!(pieces(format, &bytes), expected, "{format:?} {with}, caps {caps}, {way:?}")
                 },
             );
         }
@@ -183,16 +191,17 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
             for way in ways() {
                 each_file(
                     || pipeline(yarns, caps, way),
-                    |format, bytes| {
+                    |format, with, bytes| {
                         let mut first = first.borrow_mut();
-                        let first = first.entry(format!("{format:?}")).or_insert_with(|| bytes.clone());
-                        assert!(*first == bytes, "{format:?}, caps {caps}, {way:?}");
+                        let first =
+                            first.entry(format!("{format:?} {with}")).or_insert_with(|| bytes.clone());
+                        assert!(*first == bytes, "{format:?} {with}, caps {caps}, {way:?}");
                     },
                 );
             }
             // No vertex occurs twice: the file has as many as the uncut mesh.
             let mesh = whole(yarns, caps);
-            let bytes = &first.borrow()["Ply"];
+            let bytes = &first.borrow()["Ply false"];
             assert_eq!(ply_triangles(bytes).0, mesh.vertices.len());
         }
     }
@@ -209,9 +218,9 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     for (_, limits) in ways() {
         each_file(
             || part(limits),
-            |format, bytes| {
+            |format, with, bytes| {
                 let runs = if format == Format::Stl { by_place(&uncut) } else { runs };
-                assert_eq!(pieces(format, &bytes), runs, "{format:?}");
+                assert_eq!(pieces(format, &bytes), runs, "{format:?} {with}");
             },
         );
     }

@@ -16,6 +16,7 @@ _Section = Union[str, tuple[str, float], tuple[str, float, float]]
 _Point = tuple[float, float, float]
 _Rows = Union[NDArray[Any], Sequence[Sequence[float]]]
 _View = Literal["face", "back", "oblique", "close-up", "cut-warp", "cut-weft", "eye"]
+_Attribute = Literal["uv", "tangent", "yarn"]
 _Layer = Literal["depth", "normal", "tangent", "yarn", "uv", "position", "crossing"]
 
 class Error(Exception):
@@ -163,6 +164,7 @@ class Cloth:
         *,
         packed: bool = False,
         compressed: bool = False,
+        attributes: Sequence[_Attribute] = [],
         linear: bool = False,
         device: str = "auto",
     ) -> None: ...
@@ -223,7 +225,14 @@ class Mesh:
     def colors(self) -> NDArray[np.uint8]: ...
     @property
     def nbytes(self) -> int: ...
-    def write(self, path: _Path, *, packed: bool = False, compressed: bool = False) -> None: ...
+    def write(
+        self,
+        path: _Path,
+        *,
+        packed: bool = False,
+        compressed: bool = False,
+        attributes: Sequence[_Attribute] = [],
+    ) -> None: ...
     def to_trimesh(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def show(self, **options: Any) -> Any: ...

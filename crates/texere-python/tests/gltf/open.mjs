@@ -1,5 +1,5 @@
 // Opens a GLB file in Khronos' validator and in glTF-Transform: `node open.mjs FILE`. Prints JSON: the validator's
-// report, and each yarn as glTF-Transform decodes it, with positions in metres in the scene's axes, and normals.
+// report, and each yarn as glTF-Transform decodes it, with positions in metres in the scene's axes, normals, and attributes.
 
 import { readFileSync } from 'node:fs';
 import { NodeIO } from '@gltf-transform/core';
@@ -22,13 +22,19 @@ for (const node of document.getRoot().listNodes()) {
   // A column of the matrix for each axis, and one for the origin.
   const moved = ([x, y, z], origin) =>
     [0, 1, 2].map((row) => matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + origin * matrix[12 + row]);
-  const yarn = { name: node.getName(), positions: [], normals: [], indices: [] };
+  const yarn = { name: node.getName(), positions: [], normals: [], uv: [], tangents: [], numbers: [], indices: [] };
   for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
     const first = yarn.positions.length;
     for (const [name, list, origin] of [['POSITION', yarn.positions, 1], ['NORMAL', yarn.normals, 0]]) {
       const accessor = primitive.getAttribute(name);
       for (let vertex = 0; vertex < accessor.getCount(); vertex++) {
         list.push(moved(accessor.getElement(vertex, []), origin));
+      }
+    }
+    for (const [name, list] of [['TEXCOORD_0', yarn.uv], ['TANGENT', yarn.tangents], ['_YARN', yarn.numbers]]) {
+      const accessor = primitive.getAttribute(name);
+      for (let vertex = 0; vertex < (accessor?.getCount() ?? 0); vertex++) {
+        list.push(accessor.getElement(vertex, []));
       }
     }
     yarn.indices.push(...Array.from(primitive.getIndices().getArray(), (index) => first + index));

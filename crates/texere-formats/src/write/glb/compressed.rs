@@ -7,15 +7,18 @@ use std::path::Path;
 use texere_core::backend::{Chunk, Plan, SessionError, room_for};
 use texere_core::{Material, PipelineError};
 
+use super::column::corners;
 use super::document::Document;
 use super::form::VertexForm;
-use super::grid::{Grid, packed_position};
-use super::meshopt::{AttributeEncoder, TriangleEncoder, octahedral};
-use super::{begin, describe, each_stepped};
+use super::grid::{Grid, stepped};
+use super::meshopt::{AttributeEncoder, TriangleEncoder};
+use super::start::{Start, begin};
 use crate::write::WriteError;
 use crate::write::bounds::Bounds;
+use crate::write::corners::Corners;
+use crate::write::mesh_form::MeshForm;
 use crate::write::mesh_writer::{MeshWriter, Run};
-use crate::write::places::Places;
+use crate::write::places::{Places, RingForm};
 use crate::write::spool::Spool;
 use crate::write::target::Target;
 
@@ -28,8 +31,9 @@ use crate::write::target::Target;
 pub(in crate::write) struct CompressedGlbWriter<W: Write + Seek> {
     target: Target<W>,
     document: Document,
-    grids: Vec<Grid>,
-    sides: u32,
+    form: VertexForm,
+    corners: Corners,
+    grids: Option<Vec<Grid>>,
     /// The compressed index pattern in its parts, one after the other.
     pattern: [Spool; 2],
     /// The compressed columns of the vertices.
@@ -45,20 +49,21 @@ impl<W: Write + Seek> CompressedGlbWriter<W> {
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
+        form: MeshForm,
         bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
-        let form = VertexForm::compressed();
-        let (document, grids) = describe(plan, chunks, materials, &form, bounds)?;
-        let sides = plan.settings().sides;
-        let first_of_caps = plan.counts().rings * u64::from(sides);
-        let caps = plan.counts().vertices - first_of_caps;
+        let ring = RingForm::new(plan, form.has_seam());
+        let Start { document, form, corners, grids } = Start::new(plan, chunks, materials, form, bounds)?;
+        let first_of_caps = ring.tubes(plan);
+        let caps = ring.vertices(plan) - first_of_caps;
         let column = |stride| CompressedColumn::new(stride, caps, target.path());
         Ok(Self {
             pattern: compressed_pattern(plan, &document, target.path())?,
             columns: form.columns.iter().map(|each| column(each.bytes)).collect::<Result<_, _>>()?,
             document,
-            grids: grids.unwrap_or_default(),
-            sides,
+            form,
+            corners,
+            grids,
             first_of_caps,
             target,
         })
@@ -67,13 +72,15 @@ impl<W: Write + Seek> CompressedGlbWriter<W> {
 
 impl<W: Write + Seek> MeshWriter<W> for CompressedGlbWriter<W> {
     fn vertices(&mut self, run: Run<'_>) -> Result<(), WriteError> {
-        each_stepped(&self.grids, self.sides, &run, |place, stepped| {
-            self.document.include(place, stepped);
-            let of_cap = place >= self.first_of_caps;
-            let positions: Vec<_> = stepped.iter().map(|vertex| packed_position(vertex.position)).collect();
-            self.columns[0].add(of_cap, positions.as_flattened())?;
-            let normals: Vec<_> = stepped.iter().map(|vertex| octahedral(vertex.normal, 0)).collect();
-            self.columns[1].add(of_cap, normals.as_flattened())
+        self.corners.each(&run, |batch| {
+            let vertices = stepped(self.grids.as_deref(), &batch);
+            self.document.include(batch.place, &vertices);
+            for (column, compressed) in self.form.columns.iter().zip(&mut self.columns) {
+                let mut bytes = Vec::with_capacity(vertices.len() * column.bytes as usize);
+                corners(&vertices, &batch).for_each(|corner| (column.write)(&corner, &mut bytes));
+                compressed.add(batch.place >= self.first_of_caps, &bytes)?;
+            }
+            Ok(())
         })
     }
 

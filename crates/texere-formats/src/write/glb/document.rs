@@ -6,16 +6,15 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use texere_core::backend::{Chunk, Plan};
-use texere_core::definitions::index_pattern;
 use texere_core::{End, Material, Origin, Vertex};
 
 use super::form::{VertexForm, index_accessor};
 use super::grid::Grid;
 use super::json::Json;
-use super::schema::{self, Accessor, Asset, Attributes, Gltf, MetallicRoughness, Node, Primitive, Scene};
+use super::schema::{self, Accessor, Asset, Gltf, MetallicRoughness, Node, Primitive, Scene};
 use crate::write::WriteError;
 use crate::write::bounds::widen;
-use crate::write::places::Places;
+use crate::write::places::{Places, RingForm};
 
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
@@ -28,17 +27,18 @@ const ROUGHNESS: f32 = 0.9;
 /// written.
 ///
 /// Each tube is one primitive, from its yarn's first ring to its last. Each cap is one primitive,
-/// too. Each primitive has accessors of its own for positions and for normals. Tubes with equally
-/// many rings share one accessor of indices. Caps share one if they close the same end of yarns
-/// with the same section.
+/// too. Each primitive has accessors of its own for positions, normals and attributes. Tubes with
+/// equally many rings share one accessor of indices. Caps share one if they close the same end of
+/// yarns with the same section.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
     /// The shapes in the order of their vertices.
     shapes: Vec<Shape>,
     /// The number of columns. Each shape has as many accessors, of which the first has its
-    /// positions and the second its normals.
+    /// positions.
     columns: usize,
+    ring: RingForm,
     /// The number of gaps between rings of the longest tube. The index pattern covers as many gaps.
     gaps: u64,
 }
@@ -55,19 +55,23 @@ struct Shape {
 
 /// The tubes of `chunks` and then their caps, and the number of gaps between rings of the longest
 /// tube. A tube that is in several chunks is one shape, from its first ring to its last.
-fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec<Shape>, u64) {
-    let sides = u64::from(plan.settings().sides);
+fn shapes(
+    plan: &Plan,
+    chunks: impl Iterator<Item = impl Borrow<Chunk>>,
+    ring: RingForm,
+) -> (Vec<Shape>, u64) {
+    let [sides, corners] = [plan.settings().sides, ring.corners].map(u64::from);
     let (mut tubes, mut caps) = (Vec::<Shape>::new(), Vec::new());
-    let mut places = Places::new(plan);
+    let mut places = Places::new(plan, ring);
     for chunk in chunks {
         let chunk = chunk.borrow();
         for part in chunk.parts() {
             let first = places.of(chunk, part.first_vertex);
-            let vertices = first..first + u64::from(part.rings) * sides;
+            let vertices = first..first + u64::from(part.rings) * corners;
             match tubes.last_mut() {
                 // The tube goes on from the chunk before, whose last ring is the first ring of this
                 // part.
-                Some(tube) if tube.yarn == part.yarn && tube.vertices.end == first + sides => {
+                Some(tube) if tube.yarn == part.yarn && tube.vertices.end == first + corners => {
                     tube.vertices.end = vertices.end;
                 }
                 _ => tubes.push(Shape { yarn: part.yarn, vertices, indices: 0..0 }),
@@ -85,10 +89,10 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
     }
     // If only a box of the cloth is written, a yarn may have a single ring in the box. A single
     // ring has no triangles, so it gets no shape.
-    tubes.retain(|tube| tube.vertices.end - tube.vertices.start > sides);
+    tubes.retain(|tube| tube.vertices.end - tube.vertices.start > corners);
     let mut most = 0;
     for tube in &mut tubes {
-        let gaps = (tube.vertices.end - tube.vertices.start) / sides - 1;
+        let gaps = (tube.vertices.end - tube.vertices.start) / corners - 1;
         tube.indices = 0..gaps * sides * 6;
         most = most.max(gaps);
     }
@@ -101,13 +105,14 @@ fn shapes(plan: &Plan, chunks: impl Iterator<Item = impl Borrow<Chunk>>) -> (Vec
 }
 
 impl Document {
-    /// Describes the mesh of `plan`, cut into `chunks`, with vertices of the given `form`. If they
-    /// are packed, there are `grids`, one for each yarn.
+    /// Describes the mesh of `plan`, cut into `chunks`, with vertices and rings of the given
+    /// forms. If vertices are packed, there are `grids`, one for each yarn.
     pub(super) fn new(
         plan: &Plan,
         chunks: impl Iterator<Item = impl Borrow<Chunk>>,
         materials: &[Material],
         form: &VertexForm,
+        ring: RingForm,
         grids: Option<&[Grid]>,
     ) -> Self {
         let yarns = plan.layout().yarns();
@@ -115,7 +120,7 @@ impl Document {
             .map(|(number, yarn)| schema::Mesh { name: name(number, yarn.origin), primitives: Vec::new() })
             .zip(0..)
             .collect();
-        let (shapes, gaps) = shapes(plan, chunks);
+        let (shapes, gaps) = shapes(plan, chunks, ring);
         let mut accessors: Vec<_> = shapes.iter().flat_map(|shape| form.accessors(&shape.vertices)).collect();
         let columns = form.columns.len();
         let mut patterns = HashMap::new();
@@ -125,7 +130,7 @@ impl Document {
                 accessors.len() - 1
             });
             meshes[shape.yarn as usize].0.primitives.push(Primitive {
-                attributes: Attributes { position: number * columns, normal: number * columns + 1 },
+                attributes: form.attributes(number * columns),
                 indices,
                 material: yarns[shape.yarn as usize].material,
             });
@@ -137,7 +142,7 @@ impl Document {
         let sides = u64::from(plan.settings().sides);
         let ends = if plan.settings().caps { 2 * plan.layout().sections().len() as u64 } else { 0 };
         let pattern = gaps * sides * 6 + ends * (sides - 2) * 3;
-        let (buffer_views, buffers) = form.views(pattern, plan.counts().vertices);
+        let (buffer_views, buffers) = form.views(pattern, ring.vertices(plan));
         let gltf = Gltf {
             asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },
             extensions_used: form.extensions(),
@@ -151,7 +156,7 @@ impl Document {
             buffer_views,
             buffers,
         };
-        Self { gltf, shapes, columns, gaps }
+        Self { gltf, shapes, columns, ring, gaps }
     }
 
     /// Calls `each` with all corners of the index pattern: the quads of the longest tube, gap after
@@ -162,11 +167,10 @@ impl Document {
         plan: &Plan,
         mut each: impl FnMut(&[u32]) -> Result<(), WriteError>,
     ) -> Result<(), WriteError> {
-        let sides = plan.settings().sides;
-        let mut quads = index_pattern(sides);
+        let mut quads = self.ring.quads();
         for _ in 0..self.gaps {
             each(&quads)?;
-            quads.iter_mut().for_each(|corner| *corner += sides);
+            quads.iter_mut().for_each(|corner| *corner += self.ring.corners);
         }
         let sections = if plan.settings().caps { plan.layout().sections().len() } else { 0 };
         for (section, end) in

@@ -1,14 +1,17 @@
 //! How the vertices of a GLB file are stored.
 
-use std::mem::offset_of;
 use std::ops::Range;
 
-use texere_core::Vertex;
-
-use super::schema::{
-    ARRAY_BUFFER, Accessor, BYTE, Buffer, BufferExtensions, BufferView, Compression, ELEMENT_ARRAY_BUFFER,
-    FLOAT, Fallback, SHORT, UNSIGNED_INT, ViewExtensions,
+use super::column::{
+    COORDINATES, Column, NORMALS, OCTAHEDRAL_NORMALS, OCTAHEDRAL_TANGENTS, PACKED_NORMALS, PACKED_POSITIONS,
+    PACKED_TANGENTS, POSITIONS, TANGENTS, YARNS,
 };
+use super::schema::{
+    self, ARRAY_BUFFER, Accessor, Buffer, BufferExtensions, BufferView, Compression, ELEMENT_ARRAY_BUFFER,
+    FLOAT, Fallback, UNSIGNED_INT, ViewExtensions,
+};
+use crate::write::Format;
+use crate::write::mesh_form::{Attributes, MeshForm};
 
 /// The number of the buffer view that holds the index pattern.
 const PATTERN: usize = 0;
@@ -25,21 +28,7 @@ const QUANTIZATION: &str = "KHR_mesh_quantization";
 /// The extension that compresses buffer views.
 const COMPRESSION: &str = "EXT_meshopt_compression";
 
-/// A property of vertices, as accessors describe it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Column {
-    /// Bytes of the property of one vertex, with padding.
-    pub(super) bytes: u64,
-    /// The kind of numbers.
-    kind: u32,
-    /// Whether whole numbers stand for shares of 1. None for floats.
-    normalized: Option<bool>,
-    shape: &'static str,
-    /// The filter of the compressed property.
-    filter: Option<&'static str>,
-}
-
-/// The columns of all vertices: first positions, then normals.
+/// The columns of all vertices: first positions, then normals, then attributes.
 #[derive(Debug)]
 pub(super) struct VertexForm {
     pub(super) columns: Vec<Column>,
@@ -49,26 +38,27 @@ pub(super) struct VertexForm {
 }
 
 impl VertexForm {
-    /// Positions and normals as in [`Vertex`].
-    pub(super) fn plain() -> Self {
-        const { assert!(offset_of!(Vertex, position) == 0 && offset_of!(Vertex, normal) == 12) };
-        let column = Column { bytes: 12, kind: FLOAT, normalized: None, shape: "VEC3", filter: None };
-        Self { columns: vec![column; 2], compressed: false }
+    /// The columns of a mesh of `form`.
+    pub(super) fn new(form: MeshForm) -> Self {
+        let [positions, normals, tangents] = match form.format {
+            Format::PackedGlb => [PACKED_POSITIONS, PACKED_NORMALS, PACKED_TANGENTS],
+            Format::CompressedGlb => [PACKED_POSITIONS, OCTAHEDRAL_NORMALS, OCTAHEDRAL_TANGENTS],
+            _ => [POSITIONS, NORMALS, TANGENTS],
+        };
+        let Attributes { uv, tangent, yarn } = form.attributes;
+        let columns =
+            [(true, positions), (true, normals), (uv, COORDINATES), (tangent, tangents), (yarn, YARNS)];
+        let columns = columns.into_iter().filter(|(asked, _)| *asked).map(|(_, column)| column).collect();
+        Self { columns, compressed: form.format == Format::CompressedGlb }
     }
 
-    /// Positions in steps of a grid, and normals in steps of 1/127. Both are padded to a multiple
-    /// of four bytes.
-    pub(super) fn packed() -> Self {
-        let positions = Column { bytes: 8, kind: SHORT, normalized: None, shape: "VEC3", filter: None };
-        let normals = Column { bytes: 4, kind: BYTE, normalized: Some(true), ..positions };
-        Self { columns: vec![positions, normals], compressed: false }
+    /// Whether a vertex is stored as [`Vertex`](texere_core::Vertex) is in memory.
+    pub(super) fn is_as_in_memory(&self) -> bool {
+        self.columns.len() == 2 && !self.is_packed()
     }
 
-    /// The packed form, compressed.
-    pub(super) fn compressed() -> Self {
-        let mut form = Self { compressed: true, ..Self::packed() };
-        form.columns[1].filter = Some("OCTAHEDRAL");
-        form
+    fn is_packed(&self) -> bool {
+        self.columns[0].kind != FLOAT
     }
 
     /// Bytes of a vertex.
@@ -78,9 +68,13 @@ impl VertexForm {
 
     /// The extensions that a reader has to know.
     pub(super) fn extensions(&self) -> Vec<&'static str> {
-        let packed = self.columns[0].kind != FLOAT;
-        let extensions = [(packed, QUANTIZATION), (self.compressed, COMPRESSION)];
+        let extensions = [(self.is_packed(), QUANTIZATION), (self.compressed, COMPRESSION)];
         extensions.into_iter().filter(|(needed, _)| *needed).map(|(_, extension)| extension).collect()
+    }
+
+    /// The accessors of a primitive's vertices, of which `first` has the positions.
+    pub(super) fn attributes(&self, first: usize) -> schema::Attributes {
+        schema::Attributes(self.columns.iter().map(|column| column.semantic).zip(first..).collect())
     }
 
     /// The accessors of a tube or a cap, one for each column. At first the minimum of its positions

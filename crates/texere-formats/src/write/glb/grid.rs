@@ -2,18 +2,21 @@
 //!
 //! Source: Khronos Group, "KHR_mesh_quantization".
 
+use std::borrow::Cow;
+
 use texere_core::Vertex;
 
 use crate::write::WriteError;
 use crate::write::bounds::Bounds;
+use crate::write::corners::Batch;
 
 /// The number of steps from a grid's middle to either end: the largest signed 16-bit number.
 const STEPS: f32 = 32767.0;
 
-/// The number of steps of a packed normal from 0 to 1: the largest signed 8-bit number. In 40
-/// million random directions, packed normals were off by 0.39 degrees at most, and their lengths by
+/// The number of steps of a packed direction from 0 to 1: the largest signed 8-bit number. In 40
+/// million random directions, packed ones were off by 0.39 degrees at most, and their lengths by
 /// 0.006735 at most. Khronos' validator complains about lengths that are off by more than 0.00674.
-const NORMAL_STEPS: f32 = 127.0;
+const DIRECTION_STEPS: f32 = 127.0;
 
 /// The longest yarn that is packed, by the longest side of its box, mm. Its grid has steps of 0.01
 /// mm, which is 1/20 of the diameter of a yarn of 0.2 mm. Longer steps would spoil the rings of
@@ -64,6 +67,17 @@ impl Grid {
     }
 }
 
+/// The vertices of a batch. With `grids` their positions are in steps of their yarn's grid.
+pub(super) fn stepped<'a>(grids: Option<&[Grid]>, batch: &Batch<'a>) -> Cow<'a, [Vertex]> {
+    match grids {
+        Some(grids) => {
+            let grid = &grids[batch.yarn as usize];
+            batch.vertices.iter().map(|vertex| grid.stepped(vertex)).collect()
+        }
+        None => batch.vertices.into(),
+    }
+}
+
 /// The bytes of a position in whole steps: three 16-bit coordinates and padding.
 pub(super) fn packed_position(steps: [f32; 3]) -> [u8; 8] {
     let mut bytes = [0; 8];
@@ -73,8 +87,8 @@ pub(super) fn packed_position(steps: [f32; 3]) -> [u8; 8] {
     bytes
 }
 
-/// The bytes of a normal: three 8-bit numbers and padding.
-pub(super) fn packed_normal(normal: [f32; 3]) -> [u8; 4] {
-    let [x, y, z] = normal.map(|share| (share * NORMAL_STEPS).round_ties_even() as i8 as u8);
-    [x, y, z, 0]
+/// The bytes of a unit vector and a fourth number: four 8-bit numbers.
+pub(super) fn packed_direction(direction: [f32; 3], fourth: i8) -> [u8; 4] {
+    let [x, y, z] = direction.map(|share| (share * DIRECTION_STEPS).round_ties_even() as i8);
+    [x, y, z, fourth].map(|number| number as u8)
 }

@@ -1,6 +1,6 @@
 //! The part of the glTF 2.0 schema that a fabric needs, under the specification's own names.
 
-use super::json::{Json, objects};
+use super::json::{Json, object, objects};
 
 /// The numbers below are OpenGL's, which glTF uses for kinds of numbers and kinds of buffers. This
 /// is the kind of signed 8-bit numbers.
@@ -59,11 +59,6 @@ objects! {
         "material" material: u32,
     }
 
-    Attributes {
-        "POSITION" position: usize,
-        "NORMAL" normal: usize,
-    }
-
     Material {
         "name" name: String,
         "pbrMetallicRoughness" pbr_metallic_roughness: MetallicRoughness,
@@ -120,5 +115,17 @@ objects! {
 
     Fallback {
         "fallback" fallback: bool,
+    }
+}
+
+/// The accessors of a primitive's vertices by what they hold.
+#[derive(Debug)]
+pub(super) struct Attributes(pub(super) Vec<(&'static str, usize)>);
+
+impl Json for Attributes {
+    fn write(&self, text: &mut String) {
+        let fields: Vec<_> =
+            self.0.iter().map(|(semantic, accessor)| (*semantic, accessor as &dyn Json)).collect();
+        object(&fields, text);
     }
 }

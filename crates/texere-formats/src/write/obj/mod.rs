@@ -6,17 +6,17 @@
 mod materials;
 
 use std::borrow::Borrow;
-use std::f64::consts::TAU;
 use std::io::{Seek, Write};
 
-use glam::DVec3;
 use texere_core::Material;
 use texere_core::backend::{Chunk, Plan};
 use texere_core::definitions::index_pattern;
 
 use super::WriteError;
+use super::corners::Corners;
+use super::mesh_form::Attributes;
 use super::mesh_writer::{MeshWriter, Run};
-use super::places::Places;
+use super::places::{Places, RingForm};
 use super::target::Target;
 
 use materials::material_name;
@@ -67,17 +67,8 @@ pub(super) struct ObjWriter<'a, W: Write + Seek> {
     next_cap_face_at: u64,
     /// The yarn of the last face of a tube, and the yarn of the last face of a cap.
     named: [Option<u32>; 2],
-    along: Along,
-}
-
-/// The distance along a yarn, ring by ring.
-#[derive(Debug, Default)]
-struct Along {
-    sum: DVec3,
-    count: u32,
-    before: Option<DVec3>,
-    mm: f64,
-    goes_on: bool,
+    /// The texture coordinates, which have a seam.
+    corners: Corners,
 }
 
 impl<'a, W: Write + Seek> ObjWriter<'a, W> {
@@ -121,7 +112,11 @@ impl<'a, W: Write + Seek> ObjWriter<'a, W> {
             next_tube_face_at: faces_at,
             next_cap_face_at: faces_at,
             named: [None; 2],
-            along: Along::default(),
+            corners: Corners::new(
+                plan,
+                Attributes { uv: true, ..Attributes::default() },
+                RingForm::new(plan, true),
+            ),
         };
         let tube_faces = counts.triangles - caps * (sides - 2);
         writer.next_cap_face_at += tube_faces * writer.face_bytes() + writer.names_bytes(chunks);
@@ -175,48 +170,6 @@ impl<'a, W: Write + Seek> ObjWriter<'a, W> {
         let line = format!("{:width$}\n", format!("f {one} {two} {three}"));
         self.target.write(line.as_bytes())
     }
-
-    /// Writes the texture coordinates of a ring whose last vertex has come.
-    fn ring_coordinates(&mut self, ring: u64, begins: bool) -> Result<(), WriteError> {
-        let sides = self.plan.settings().sides;
-        let mm = self.along.next(f64::from(sides), begins);
-        self.target.go_to(self.coordinates_at + ring * (u64::from(sides) + 1) * TWO_BYTES)?;
-        for side in 0..=sides {
-            let turn = side as f32 / sides as f32;
-            self.target.write(two(turn, mm as f32).as_bytes())?;
-        }
-        Ok(())
-    }
-
-    /// Writes the texture coordinates of a cap.
-    fn cap_coordinates(&mut self, cap: u64) -> Result<(), WriteError> {
-        let sides = self.plan.settings().sides;
-        let first = self.ring_coordinates + cap * u64::from(sides);
-        self.target.go_to(self.coordinates_at + first * TWO_BYTES)?;
-        for side in 0..sides {
-            let (sine, cosine) = (TAU * f64::from(side) / f64::from(sides)).sin_cos();
-            let line = two((0.5 + 0.5 * cosine) as f32, (0.5 + 0.5 * sine) as f32);
-            self.target.write(line.as_bytes())?;
-        }
-        Ok(())
-    }
-}
-
-impl Along {
-    fn add(&mut self, position: [f32; 3]) {
-        self.sum += DVec3::from(position.map(f64::from));
-        self.count += 1;
-    }
-
-    /// The distance of the ring whose vertices have been added. `begins` says that the ring is the
-    /// first of its run of rings.
-    fn next(&mut self, sides: f64, begins: bool) -> f64 {
-        let middle = self.sum / sides;
-        let way = self.before.filter(|_| !begins).map(|before| before.distance(middle));
-        self.mm = way.map_or(0.0, |way| self.mm + way);
-        (self.before, self.sum, self.count) = (Some(middle), DVec3::ZERO, 0);
-        self.mm
-    }
 }
 
 impl<W: Write + Seek> MeshWriter<W> for ObjWriter<'_, W> {
@@ -229,29 +182,14 @@ impl<W: Write + Seek> MeshWriter<W> for ObjWriter<'_, W> {
                 self.target.write(line.as_bytes())?;
             }
         }
-        let sides = self.plan.settings().sides;
-        let all_rings = self.plan.counts().rings;
-        for ((number, place), vertex) in (run.first..).zip(run.place..).zip(run.vertices) {
-            self.along.add(vertex.position);
-            if self.along.count < sides {
-                continue;
-            }
-            let (ring, place) = (number / sides, place / u64::from(sides));
-            if ring < run.chunk.rings() {
-                let first = ring * sides;
-                let parts = run.chunk.parts();
-                let begins = parts.binary_search_by_key(&first, |part| part.first_vertex).is_ok();
-                self.ring_coordinates(place, begins && !(ring == 0 && self.along.goes_on))?;
-            } else {
-                (self.along.sum, self.along.count) = (DVec3::ZERO, 0);
-                self.cap_coordinates(place - all_rings)?;
-            }
-        }
-        Ok(())
+        let Self { corners, target, coordinates_at, .. } = self;
+        corners.each(&run, |batch| {
+            target.go_to(*coordinates_at + batch.place * TWO_BYTES)?;
+            batch.surfaces().try_for_each(|surface| target.write(two(surface.uv).as_bytes()))
+        })
     }
 
     fn triangles(&mut self, chunk: &Chunk, places: &Places) -> Result<(), WriteError> {
-        self.along.goes_on = chunk.repeats_ring();
         let sides = u64::from(self.plan.settings().sides);
         let quads = std::mem::take(&mut self.quads);
         self.target.go_to(self.next_tube_face_at)?;
@@ -303,6 +241,6 @@ fn tube_corners(base: u64, corners: [u32; 3], sides: u64) -> [[u64; 2]; 3] {
 }
 
 /// The line of a pair of texture coordinates.
-fn two(turn: f32, along: f32) -> String {
+fn two([turn, along]: [f32; 2]) -> String {
     format!("vt {turn:15e} {along:15e}\n")
 }

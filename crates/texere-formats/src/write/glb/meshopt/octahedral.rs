@@ -7,7 +7,8 @@ const STEPS: f32 = 127.0;
 /// steps, and `fourth`, which the filter passes on. A direction of no length becomes some other.
 ///
 /// Of the four nearest pairs of numbers, the one is taken that readers decode to the nearest
-/// direction. Rounding each number by itself is off by 1.1 degrees at most, this by 0.9.
+/// direction. In 200,000 directions this was off by 0.80 degrees at most; rounding each number by
+/// itself was off by 1.18.
 pub(in crate::write::glb) fn octahedral(direction: [f32; 3], fourth: i8) -> [u8; 4] {
     let [x, y, z] = direction;
     let length = x.abs() + y.abs() + z.abs();

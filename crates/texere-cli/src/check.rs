@@ -8,9 +8,10 @@ use crate::fail::Fail;
 use crate::{print, progress, reading, settling};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
-    let (design, _) = reading::reported(&args.design)?;
+    let (design, _) = reading::reported(&args.design, args.curves)?;
     let name = design.name.clone();
-    let (cloth, settling) = settling::cloth(design, &args.settling, 0.0, || texere::open("cpu"))?;
+    let tension = design.structure.tension();
+    let (cloth, settling) = settling::cloth(design, &args.settling, tension, || texere::open("cpu"))?;
     let settings = Settings::of(cloth.yarns());
     let clearance = progress::during("measuring how near yarns come", |bar| {
         cloth.clearance(&settings, progress::share(bar))

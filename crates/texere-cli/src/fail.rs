@@ -75,12 +75,6 @@ impl Fail {
         }
     }
 
-    /// An `option` that needs a design was given for the saved cloth or the curves in `path`.
-    pub(crate) fn needs_design(option: &str, path: &Path) -> Self {
-        let path = path.display();
-        Self { code: USAGE, source: format!("{option} needs a design: {path} holds yarns alone").into() }
-    }
-
     /// An `option` of curves was given for another kind of file.
     pub(crate) fn needs_curves(option: &str, path: &Path) -> Self {
         let path = path.display();

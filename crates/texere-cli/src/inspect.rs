@@ -8,15 +8,15 @@ use crate::fail::Fail;
 use crate::{print, progress, reading, settling};
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
-    let (mut design, said) = reading::reported(&args.design)?;
+    let (mut design, said) = reading::reported(&args.design, args.curves)?;
     if let Some(section) = &args.settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
-    let name = design.name.clone();
+    let (name, tension) = (design.name.clone(), args.settings.tension(design.structure.tension()));
     let (cloth, settling) = if args.counts {
-        (design.placed(args.settings.tension())?, None)
+        (design.placed(tension)?, None)
     } else {
-        settling::cloth(design, &args.settling, args.settings.tension(), || texere::open("cpu"))?
+        settling::cloth(design, &args.settling, tension, || texere::open("cpu"))?
     };
     let plan = Plan::new(cloth.yarns().layout().clone(), args.settings.of(cloth.yarns()))?;
     let clearance = if args.counts {

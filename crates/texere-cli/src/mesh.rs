@@ -46,18 +46,11 @@ impl Cloth {
         args: &MeshArgs,
         open: impl FnOnce() -> Result<D, BackendError>,
     ) -> Result<Self, Fail> {
-        if let Some(yarns) = reading::yarns(&args.design, args.curves, &args.settings, &args.settling)? {
-            let output = output(args, [&args.design]);
-            output.check()?;
-            return Ok(Self { yarns, output, warnings: Vec::new(), settling: None });
-        }
-        let mut design = reading::design(&args.design)?;
-        if let Some(section) = &args.settings.section {
-            design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
-        }
+        let design = reading::cloth(&args.design, args.curves, &args.settings)?;
         let output = output(args, design.files());
         output.check()?;
-        let (cloth, settling) = settling::cloth(design, &args.settling, args.settings.tension(), open)?;
+        let tension = args.settings.tension(design.structure.tension());
+        let (cloth, settling) = settling::cloth(design, &args.settling, tension, open)?;
         let mut warnings = cloth.warnings();
         warnings.retain(|warning| !cloth.design().remarks().contains(warning));
         Ok(Self { yarns: cloth.into_parts().1, output, warnings, settling })

@@ -3,9 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
-use texere::{Design, Yarns};
+use texere::Design;
+use texere::rest::Piece;
 
-use crate::args::{CurveArgs, SettingsArgs, SettlingArgs, is_read_as_curves, is_yarns, says_thickness};
+use crate::args::{CurveArgs, SettingsArgs, is_read_as_curves, is_yarns, says_thickness};
 use crate::fail::Fail;
 use crate::terminal::line;
 
@@ -17,42 +18,30 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
     Ok(design)
 }
 
-/// The yarns in `path`, if it is a file of saved yarns or of curves, or none if it is a design.
+/// Reads a design as [`design`] does, or the yarns of a file of saved yarns or of curves, and gives
+/// them the section of the command line, if there is one.
 ///
-/// **Errors**: those of reading, an option of the command line that needs a file of another kind,
-/// and a diameter that curves lack.
-pub(crate) fn yarns(
-    path: &Path,
-    curves: CurveArgs,
-    settings: &SettingsArgs,
-    settling: &SettlingArgs,
-) -> Result<Option<Yarns>, Fail> {
-    let is_curves = is_read_as_curves(path);
-    if let Some(option) = curves.given().filter(|_| !is_curves) {
-        return Err(Fail::needs_curves(option, path));
+/// **Errors**: those of reading, an option of `curves` for a file of another kind, a diameter that
+/// curves lack, and a section that yarns can't have.
+pub(crate) fn cloth(path: &Path, curves: CurveArgs, settings: &SettingsArgs) -> Result<Design, Fail> {
+    let mut design = match yarns(path, curves)? {
+        Some(design) => design,
+        None => design(path)?,
+    };
+    if let Some(section) = &settings.section {
+        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
-    if !is_yarns(path) && !is_curves {
-        return Ok(None);
-    }
-    let section = settings.section.as_ref().map(|_| "--section");
-    if let Some(option) = section.or(settling.asked()) {
-        return Err(Fail::needs_design(option, path));
-    }
-    let scale = curves.scale();
-    if is_curves && !says_thickness(path) && scale.diameter_mm.is_none() {
-        return Err(Fail::needs_diameter(path));
-    }
-    let yarns = if is_curves { texere::read::curves(path, scale)? } else { texere::read::yarns(path)?.yarns };
-    Ok(Some(match settings.tension {
-        Some(tension) => yarns.with_tension(tension)?,
-        None => yarns,
-    }))
+    Ok(design)
 }
 
-/// Reads a design for a report. Prints the reader's remarks on standard error, except those about
-/// faults of the cloth, which the report names itself. Also returns the printed remarks.
-pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
-    let design = texere::read(path)?;
+/// Reads a design or yarns for a report. Prints the reader's remarks on standard error, except
+/// those about faults of the cloth, which the report names itself. Also returns the printed
+/// remarks.
+pub(crate) fn reported(path: &Path, curves: CurveArgs) -> Result<(Design, Vec<String>), Fail> {
+    let design = match yarns(path, curves)? {
+        Some(design) => design,
+        None => texere::read(path)?,
+    };
     let errors = design.faults().iter().filter(|fault| fault.is_error).map(|fault| &fault.message);
     let pieces = design.structure.pieces();
     let apart = pieces.falls_apart().then(|| pieces.to_string());
@@ -60,6 +49,24 @@ pub(crate) fn reported(path: &Path) -> Result<(Design, Vec<String>), Fail> {
     let said: Vec<_> = design.remarks().iter().filter(|remark| !faults.contains(remark)).cloned().collect();
     say(&said);
     Ok((design, said))
+}
+
+/// The yarns of a file of saved yarns or of curves, or none if it is a design.
+fn yarns(path: &Path, curves: CurveArgs) -> Result<Option<Design>, Fail> {
+    let is_curves = is_read_as_curves(path);
+    if let Some(option) = curves.given().filter(|_| !is_curves) {
+        return Err(Fail::needs_curves(option, path));
+    }
+    let scale = curves.scale();
+    let piece = match (is_yarns(path), is_curves) {
+        (true, _) => texere::read::yarns(path)?.into_piece(),
+        (_, true) if !says_thickness(path) && scale.diameter_mm.is_none() => {
+            return Err(Fail::needs_diameter(path));
+        }
+        (_, true) => Piece::cut(texere::read::curves(path, scale)?),
+        _ => return Ok(None),
+    };
+    Ok(Some(Design::of_file(path, piece)))
 }
 
 fn say(remarks: &[String]) {

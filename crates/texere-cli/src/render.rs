@@ -12,7 +12,7 @@ use texere::picture::{Background, Camera, Cut, Extent, Quality, Renderer};
 use texere::rest::{Finished, RestReport};
 use texere::write::Output;
 use texere::yarn::Origin;
-use texere::{ControlPoint, Yarns};
+use texere::{ControlPoint, Structure, Yarns};
 
 use crate::args::{RenderArgs, View, undersampled};
 use crate::fail::Fail;
@@ -44,37 +44,24 @@ struct Shown {
 }
 
 impl Shown {
-    /// The cloth that `args` name: saved cloth, curves, or the cloth of a design.
+    /// The cloth that `args` name: saved cloth, curves, or the cloth of a design. Saved woven cloth
+    /// counts as cloth at rest, since only cloth at rest is worth saving.
     fn new(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
-        let saved = stages
-            .time("read", || reading::yarns(&args.design, args.curves, &args.settings, &args.settling))?;
-        match saved {
-            Some(yarns) => Self::of_saved(args, yarns),
-            None => Self::of_design(args, stages),
-        }
-    }
-
-    /// Saved woven cloth counts as cloth at rest, since only cloth at rest is worth saving.
-    fn of_saved(args: &RenderArgs, yarns: Yarns) -> Result<Self, Fail> {
-        let middles = saved_middles(&yarns);
-        let lies_close = middles.iter().all(|middles| !middles.is_empty());
-        let outputs = outputs(args, &[&args.design])?;
-        Ok(Self { outputs, yarns, lies_close, middles, settling: None })
-    }
-
-    fn of_design(args: &RenderArgs, stages: &mut Stages) -> Result<Self, Fail> {
-        let mut design = stages.time("read", || reading::design(&args.design))?;
-        if let Some(section) = &args.settings.section {
-            design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
-        }
+        let design = stages.time("read", || reading::cloth(&args.design, args.curves, &args.settings))?;
         let outputs = outputs(args, design.files())?;
-        let open = || texere::open(&args.device);
-        let (cloth, settling) = stages
-            .time("yarns", || settling::cloth(design, &args.settling, args.settings.tension(), open))?;
-        let lies_close = matches!(cloth.report(), RestReport::Finished(Finished::Woven(_)));
+        let (open, tension) =
+            (|| texere::open(&args.device), args.settings.tension(design.structure.tension()));
+        let (cloth, settling) =
+            stages.time("yarns", || settling::cloth(design, &args.settling, tension, open))?;
+        let is_at_rest = matches!(cloth.report(), RestReport::Finished(Finished::Woven(_)));
         let (design, yarns) = cloth.into_parts();
-        let middles =
-            design.structure.woven().map(|woven| woven.cloth().middles_mm()).unwrap_or_default().into_array();
+        let middles = match &design.structure {
+            Structure::Woven(woven) => woven.cloth().middles_mm().into_array(),
+            Structure::Yarns(_) => saved_middles(&yarns),
+            _ => <[_; 2]>::default(),
+        };
+        let is_saved = matches!(design.structure, Structure::Yarns(_));
+        let lies_close = is_at_rest || is_saved && middles.iter().all(|middles| !middles.is_empty());
         Ok(Self { outputs, yarns, lies_close, middles, settling })
     }
 }

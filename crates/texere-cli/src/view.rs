@@ -11,7 +11,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Fail> {
     let view = View {
         device: args.device.clone(),
         settings: args.settings.settings(),
-        tension: args.settings.tension(),
+        tension: args.settings.tension(0.0),
         sides: args.settings.sides,
         subdivisions: args.settings.subdivisions,
         section: args.settings.section.clone(),

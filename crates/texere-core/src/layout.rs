@@ -148,6 +148,16 @@ impl Layout {
         Ok(Self { tension, ..self })
     }
 
+    /// This layout with one section for all yarns.
+    ///
+    /// **Errors**: [`YarnError::Section`] for a section with invalid parameters.
+    pub fn with_section(mut self, section: Section) -> Result<Self, YarnError> {
+        section.validate().map_err(|source| YarnError::Section { section: 0, source })?;
+        self.yarns.iter_mut().for_each(|yarn| yarn.section = 0);
+        self.sections = vec![section];
+        Ok(self)
+    }
+
     /// The tension of the splines through the control points (the paper's u), in \[0, 1). 0 gives
     /// the Catmull-Rom spline. Towards 1, yarns run straight from point to point.
     #[must_use]

@@ -32,9 +32,10 @@ pub use self::error::YarnError;
 pub struct Yarns {
     layout: Arc<Layout>,
     materials: Arc<[Material]>,
-    points: Vec<ControlPoint>,
-    ups: Option<Vec<Vec3>>,
-    sources: Option<Vec<u32>>,
+    // Copies of yarns share their points until one of them moves.
+    points: Arc<Vec<ControlPoint>>,
+    ups: Option<Arc<Vec<Vec3>>>,
+    sources: Option<Arc<Vec<u32>>>,
 }
 
 impl Yarns {
@@ -70,7 +71,13 @@ impl Yarns {
         for (yarn, stand) in stands.into_iter().enumerate() {
             layout.set_stand(yarn, stand?);
         }
-        Ok(Self { layout: Arc::new(layout), materials: materials.into(), points, ups: None, sources: None })
+        Ok(Self {
+            layout: Arc::new(layout),
+            materials: materials.into(),
+            points: Arc::new(points),
+            ups: None,
+            sources: None,
+        })
     }
 
     /// Adds the source of each control point: one `u32` per control point, which stands for a
@@ -82,7 +89,7 @@ impl Yarns {
         if sources.len() != self.points.len() {
             return Err(YarnError::SourceCount { sources: sources.len(), points: self.points.len() });
         }
-        self.sources = Some(sources);
+        self.sources = Some(Arc::new(sources));
         Ok(self)
     }
 
@@ -107,6 +114,24 @@ impl Yarns {
         if tension.to_bits() != self.tension().to_bits() {
             self.layout = Arc::new(Arc::unwrap_or_clone(self.layout).with_tension(tension)?);
         }
+        Ok(self)
+    }
+
+    /// These yarns with one section for all of them.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Section, Yarn, Yarns};
+    /// # let mut yarns = Yarns::builder();
+    /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// # let yarns = yarns.build()?;
+    /// let plied = yarns.with_section(Section::Lobed { plies: 2 })?;
+    /// assert_eq!(plied.layout().sections(), [Section::Lobed { plies: 2 }]);
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    ///
+    /// **Errors**: [`YarnError::Section`] for a section with invalid parameters.
+    pub fn with_section(mut self, section: Section) -> Result<Self, YarnError> {
+        self.layout = Arc::new(Arc::unwrap_or_clone(self.layout).with_section(section)?);
         Ok(self)
     }
 
@@ -159,7 +184,7 @@ impl Yarns {
         for (yarn, stand) in stands.into_iter().enumerate() {
             layout.set_stand(yarn, stand);
         }
-        self.ups = Some(ups);
+        self.ups = Some(Arc::new(ups));
         Ok(self)
     }
 
@@ -167,7 +192,7 @@ impl Yarns {
     /// none were given.
     #[must_use]
     pub fn ups(&self) -> Option<&[Vec3]> {
-        self.ups.as_deref()
+        self.ups.as_ref().map(|ups| ups.as_slice())
     }
 
     /// The layout: offsets, sections, and the data of each yarn.
@@ -197,7 +222,7 @@ impl Yarns {
     /// The [source](Yarns::with_sources) of each control point, if there are sources.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
-        self.sources.as_deref()
+        self.sources.as_ref().map(|sources| sources.as_slice())
     }
 
     /// The range of a yarn's control points among all control points, or `None` past the last yarn.
@@ -229,7 +254,7 @@ impl Yarns {
         if stand != self.layout.stand(yarn) {
             Arc::make_mut(&mut self.layout).set_stand(yarn, stand);
         }
-        self.points[range].copy_from_slice(points);
+        Arc::make_mut(&mut self.points)[range].copy_from_slice(points);
         Ok(())
     }
 

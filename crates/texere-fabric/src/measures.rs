@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
+use texere_contact::lengths_mm;
 use texere_core::definitions::{Segment, neighbours, tangent_factor};
 use texere_core::{ControlPoint, Material, Yarns};
 
@@ -44,18 +45,19 @@ pub struct Measures {
     /// Length of yarn of each material, mm, in the order of the materials. Yarn beyond the edges of
     /// a knit does not count.
     pub length_mm: Vec<f64>,
-    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None for a knit. Turns
+    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None for any other
+    /// fabric. Turns
     /// at a selvedge count as weft. The crimp of a weft that turns therefore tells how much yarn
     /// the mill has to wind, and is more than the crimp of a pick without its turns.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define crimp in this way.
     pub crimp: Option<BySet<f64>>,
-    /// The cover of woven cloth. None for a knit.
+    /// The cover of woven cloth. None for any other fabric.
     pub cover: Option<Cover>,
-    /// Measures of a knit. None for woven cloth.
+    /// Measures of a knit. None for any other fabric.
     pub knit: Option<KnitMeasures>,
     /// Weight, g/m²: length × tex over the cloth's area. None if a material that is used has no
-    /// tex.
+    /// tex, and for yarns that no structure made, whose cloth has no known area.
     pub areal_weight: Option<f64>,
     /// Thickness of the cloth without load, mm: from the lowest point of its yarns' surfaces to the
     /// highest.
@@ -131,6 +133,18 @@ impl Measures {
             areal_weight: weight_g(&length_mm, yarns.materials()).map(|grams| grams / (area * 1e-6)),
             length_mm,
             thickness_mm: thickness_within(yarns, |yarn| own(yarn).intervals()),
+        }
+    }
+
+    /// Measures of yarns that no structure made: their lengths, and the thickness of all together.
+    pub(crate) fn of_yarns(yarns: &Yarns) -> Self {
+        Self {
+            length_mm: lengths_by_material(yarns, &lengths_mm(yarns)),
+            crimp: None,
+            cover: None,
+            knit: None,
+            areal_weight: None,
+            thickness_mm: thickness_mm(yarns),
         }
     }
 
@@ -279,6 +293,25 @@ pub fn weight_g(lengths_mm: &[f64], materials: &[Material]) -> Option<f64> {
 #[must_use]
 pub fn thickness_mm(yarns: &Yarns) -> f64 {
     thickness_within(yarns, |_| 0..usize::MAX)
+}
+
+/// Width and height (along x and y) of the box round the control points of yarns and their half
+/// widths, mm. Both are 0 without yarns.
+pub(crate) fn size_mm(yarns: &Yarns) -> [f64; 2] {
+    let sections = yarns.layout().sections();
+    let mut box_mm = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
+        let wide = f64::from(sections[yarn.section as usize].half_width());
+        for point in yarns.yarn_points(number).unwrap_or(&[]) {
+            let half = wide * f64::from(point.half_width());
+            for (axis, place) in [point.x, point.y].map(f64::from).into_iter().enumerate() {
+                box_mm[0][axis] = f64::min(box_mm[0][axis], place - half);
+                box_mm[1][axis] = f64::max(box_mm[1][axis], place + half);
+            }
+        }
+    }
+    let [low, high] = box_mm;
+    [0, 1].map(|axis| f64::max(high[axis] - low[axis], 0.0))
 }
 
 /// Thickness from the lowest point to the highest of the surfaces of a part of each yarn, mm. `own`

@@ -5,10 +5,12 @@ use std::ops::ControlFlow;
 use texere_core::{Backend, Section, Settings, YarnPlace, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, Pieces, ThreadPlace};
+use crate::measures::size_mm;
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
     FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
+    settle,
 };
 
 /// How the yarns of a fabric interlace, for any kind of fabric.
@@ -34,15 +36,19 @@ pub enum Structure {
     Weft(Knitted),
     /// A warp knit.
     Warp(WarpKnitted),
+    /// Yarns that no structure made, such as saved cloth or the curves of another program. They lie
+    /// as they are, and settle by contact as a [`Piece`] does.
+    Yarns(Piece),
 }
 
 impl Structure {
-    /// The woven design, with what only weaving has, such as a draft. None for a knit.
+    /// The woven design, with what only weaving has, such as a draft. None for any other
+    /// fabric.
     #[must_use]
     pub const fn woven(&self) -> Option<&WovenDesign> {
         match self {
             Self::Woven(design) => Some(design),
-            Self::Weft(_) | Self::Warp(_) => None,
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => None,
         }
     }
 
@@ -50,7 +56,7 @@ impl Structure {
     #[must_use]
     pub const fn knitted(&self) -> Option<&Knitted> {
         match self {
-            Self::Woven(_) | Self::Warp(_) => None,
+            Self::Woven(_) | Self::Warp(_) | Self::Yarns(_) => None,
             Self::Weft(knit) => Some(knit),
         }
     }
@@ -61,7 +67,7 @@ impl Structure {
     pub const fn warp_knitted(&self) -> Option<&WarpKnitted> {
         match self {
             Self::Warp(knit) => Some(knit),
-            Self::Woven(_) | Self::Weft(_) => None,
+            Self::Woven(_) | Self::Weft(_) | Self::Yarns(_) => None,
         }
     }
 
@@ -74,6 +80,17 @@ impl Structure {
             Self::Woven(design) => design.cloth().yarns(),
             Self::Weft(knit) => knit.yarns(),
             Self::Warp(knit) => knit.yarns(),
+            Self::Yarns(piece) => Ok(piece.yarns.clone()),
+        }
+    }
+
+    /// The tension of the yarns' splines, if nobody asks for another: 0, or that of yarns that no
+    /// structure made.
+    #[must_use]
+    pub fn tension(&self) -> f32 {
+        match self {
+            Self::Woven(_) | Self::Weft(_) | Self::Warp(_) => 0.0,
+            Self::Yarns(piece) => piece.yarns.tension(),
         }
     }
 
@@ -88,6 +105,7 @@ impl Structure {
             Self::Woven(design) => Ok(Repeat { piece: Piece::cut(design.cloth().yarns()?), copies: [1, 1] }),
             Self::Weft(knit) => knit.repeat(),
             Self::Warp(knit) => knit.repeat(),
+            Self::Yarns(piece) => Ok(Repeat { piece: piece.clone(), copies: [1, 1] }),
         }
     }
 
@@ -98,19 +116,19 @@ impl Structure {
     /// **Errors**: the errors of [`Repeat::placed`].
     pub fn placed(&self, repeat: &Repeat, yarns: &Yarns) -> Result<Yarns, FabricError> {
         match self {
-            Self::Woven(_) => repeat.placed(yarns),
+            Self::Woven(_) | Self::Yarns(_) => repeat.placed(yarns),
             Self::Weft(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
             Self::Warp(knit) => knit.placed(repeat, yarns, &mut || Ok(())),
         }
     }
 
     /// `finish` with a rule for the lengths of a knit's repeat, if `finish` has none: see
-    /// [`Knitted::finish_of`] and [`WarpKnitted::finish_of`]. For woven cloth `finish` is returned
-    /// as it is.
+    /// [`Knitted::finish_of`] and [`WarpKnitted::finish_of`]. For any other
+    /// fabric `finish` is returned as it is.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         match self {
-            Self::Woven(_) => *finish,
+            Self::Woven(_) | Self::Yarns(_) => *finish,
             Self::Weft(knit) => knit.finish_of(repeat, finish),
             Self::Warp(knit) => knit.finish_of(repeat, finish),
         }
@@ -118,7 +136,8 @@ impl Structure {
 
     /// Lets the fabric come to rest: woven cloth by its crossings
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
-    /// [`WarpKnitted::settle`]). `tension` is the tension of all yarns' splines, from 0 to below 1.
+    /// [`WarpKnitted::settle`]), and other yarns, too ([`settle`]). `tension` is the tension of all
+    /// yarns' splines, from 0 to below 1.
     ///
     /// **Errors**: the errors of the method that is called. Woven cloth also gives
     /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
@@ -152,13 +171,17 @@ impl Structure {
             }
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
             Self::Warp(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
+            Self::Yarns(piece) => {
+                let yarns = piece.yarns.clone().with_tension(tension).map_err(FabricError::from)?;
+                settle(&Piece { yarns, ..piece.clone() }, finish, backend, progress).map(Finished::Knit)
+            }
         }
     }
 
     /// Stretches woven cloth along one set of its threads: see
     /// [`Woven::stretched`](crate::Woven::stretched). All threads keep their lengths. Returns
-    /// `finish` with the tensions of the stretched cloth, for [`Structure::settle`]. A knit is not
-    /// changed.
+    /// `finish` with the tensions of the stretched cloth, for [`Structure::settle`]. Any other
+    /// fabric is not changed.
     ///
     /// **Errors**: the errors of [`Woven::stretched`](crate::Woven::stretched). After an error the
     /// cloth is unchanged.
@@ -209,16 +232,19 @@ impl Structure {
             Self::Warp(knit) => {
                 ThreadPlace { stitch: knit.stitch_at(place), ..ThreadPlace::on(yarns, place) }
             }
+            Self::Yarns(_) => ThreadPlace::on(yarns, place),
         }
     }
 
-    /// Width and height of the fabric, mm.
+    /// Width and height of the fabric, mm. For yarns that no structure made, those of the box round
+    /// their control points and half widths.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         match self {
             Self::Woven(design) => design.cloth().size_mm(),
             Self::Weft(knit) => knit.size_mm(),
             Self::Warp(knit) => knit.size_mm(),
+            Self::Yarns(piece) => size_mm(&piece.yarns),
         }
     }
 
@@ -231,6 +257,10 @@ impl Structure {
             Self::Woven(design) => design.set_section(section),
             Self::Weft(knit) => Ok(knit.set_section(section)?),
             Self::Warp(knit) => Ok(knit.set_section(section)?),
+            Self::Yarns(piece) => {
+                piece.yarns = piece.yarns.clone().with_section(section)?;
+                Ok(())
+            }
         }
     }
 
@@ -240,19 +270,20 @@ impl Structure {
     pub fn warnings(&self) -> Vec<FabricWarning> {
         match self {
             Self::Woven(design) => design.cloth().warnings(),
-            Self::Weft(_) | Self::Warp(_) => Vec::new(),
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => Vec::new(),
         }
     }
 
     /// Yarn consumption, weight and thickness, the crimp and cover of woven cloth, and the loops of
     /// a knit. `yarns` are the structure's own.
     ///
-    /// **Errors**: the errors of [`Measures::new`] for woven cloth, and none for a knit.
+    /// **Errors**: the errors of [`Measures::new`] for woven cloth, and none for any other fabric.
     pub fn measures(&self, yarns: &Yarns) -> Result<Measures, FabricError> {
         match self {
             Self::Woven(design) => Measures::new(design.cloth(), yarns),
             Self::Weft(knit) => knit.measures(yarns),
             Self::Warp(knit) => Ok(knit.measures(yarns)),
+            Self::Yarns(_) => Ok(Measures::of_yarns(yarns)),
         }
     }
 
@@ -270,30 +301,32 @@ impl Structure {
     ) -> Result<ClothClearance, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().clearance(yarns, settings, progress),
-            Self::Weft(_) | Self::Warp(_) => ClothClearance::of(yarns, settings, progress),
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => ClothClearance::of(yarns, settings, progress),
         }
     }
 
     /// Threads of woven cloth that lie too close together as they are woven. None if all threads
-    /// have room, and none for a knit.
+    /// have room, and none for any other fabric.
     #[must_use]
     pub fn jams(&self) -> Option<Jams> {
         match self {
             Self::Woven(design) => design.cloth().jams(),
-            Self::Weft(_) | Self::Warp(_) => None,
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => None,
         }
     }
 
     /// The pieces that the fabric falls into, the yarns that nothing holds, and the needles of a
     /// knit that never have a loop. Woven cloth may fall into layers
     /// ([`Drawdown::layers`](crate::Drawdown::layers)), knits into yarns whose loops are not drawn
-    /// through one another.
+    /// through one another. Nothing is known of yarns that no structure made: they count as no
+    /// piece.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
         match self {
             Self::Woven(design) => design.cloth().pieces(),
             Self::Weft(knit) => knit.pieces(),
             Self::Warp(knit) => knit.pieces(),
+            Self::Yarns(_) => Pieces::default(),
         }
     }
 
@@ -308,7 +341,7 @@ impl Structure {
     ) -> Result<Diagnosis, FabricError> {
         match self {
             Self::Woven(design) => design.cloth().diagnose(touching, progress),
-            Self::Weft(_) | Self::Warp(_) => {
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => {
                 let yarns = self.yarns()?;
                 let clearance = self.clearance(&yarns, &Settings::of(&yarns), progress)?;
                 Ok(Diagnosis::new(touching, clearance, None, self.pieces()))
@@ -335,11 +368,11 @@ impl Structure {
     }
 
     /// Single changes of a woven design that help against the faults of `diagnosis`. Each change
-    /// has been tried: see [`WovenDesign::cures`]. For knits the list is empty.
+    /// has been tried: see [`WovenDesign::cures`]. For any other fabric the list is empty.
     pub fn cures(&self, diagnosis: &Diagnosis, progress: impl FnMut(f64) -> ControlFlow<()>) -> Vec<Cure> {
         match self {
             Self::Woven(design) => design.cures(diagnosis, progress),
-            Self::Weft(_) | Self::Warp(_) => Vec::new(),
+            Self::Weft(_) | Self::Warp(_) | Self::Yarns(_) => Vec::new(),
         }
     }
 }

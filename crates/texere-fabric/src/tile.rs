@@ -42,7 +42,8 @@ enum Kind {
 }
 
 impl Structure {
-    /// One repeat of the structure amid copies of itself. None for a knit that does not repeat.
+    /// One repeat of the structure amid copies of itself. None for a knit that does not repeat,
+    /// and for yarns that no structure made.
     /// Woven cloth in which nothing repeats is its own repeat, and its last threads come to lie
     /// beside its first ones.
     ///
@@ -56,6 +57,7 @@ impl Structure {
                 let (cloth, [before, count]) = design.cloth().amid_copies()?;
                 (Self::Woven(design.of(cloth)?), Kind::Woven { before, count })
             }
+            Self::Yarns(_) => return Ok(None),
             Self::Weft(knit) => match knit.repeat_size() {
                 None => return Ok(None),
                 Some(size) => {
@@ -126,6 +128,7 @@ impl Structure {
             Self::Woven(design) => [design.cloth().warp().len(), design.cloth().weft().len()],
             Self::Weft(knit) => knit.size().map(|number| number as usize),
             Self::Warp(knit) => knit.size().map(|number| number as usize),
+            Self::Yarns(_) => [1, 1],
         };
         let size = self.size_mm();
         [0, 1].map(|axis| size[axis] / cells[axis].max(1) as f64)

@@ -159,12 +159,13 @@ impl Design {
     /// ```
     pub fn rest(self, device: &dyn Backend) -> Resting<'_> {
         let progress = Box::new(|_| ControlFlow::Continue(()));
-        Resting { design: self, device, tension: 0.0, progress }
+        let tension = self.structure.tension();
+        Resting { design: self, device, tension, progress }
     }
 
     /// The cloth of the design with its yarns where the structure places them, even if the design
     /// asks for cloth at rest. No device is needed. `tension` is the tension of the yarns' splines,
-    /// from 0 to below 1; 0 is usual.
+    /// from 0 to below 1. [`Structure::tension`](texere_fabric::Structure::tension) is usual.
     ///
     /// **Errors**: a [`Refusal`] with the errors of [`Design::yarns`], or for a tension out of
     /// range.
@@ -180,7 +181,8 @@ impl Design {
 }
 
 impl<'a> Resting<'a> {
-    /// The tension of the yarns' splines, from 0 to below 1. It is 0 if not given.
+    /// The tension of the yarns' splines, from 0 to below 1. If not given, it is
+    /// [`Structure::tension`](texere_fabric::Structure::tension).
     pub fn tension(self, tension: f32) -> Self {
         Self { tension, ..self }
     }

@@ -71,8 +71,12 @@ pub(crate) struct DevicesArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InspectArgs {
-    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
+    /// file of saved cloth, or a .bcc, .obj, .usda or .tg3 file of curves that another program
+    /// wrote
     pub(crate) design: PathBuf,
+    #[command(flatten)]
+    pub(crate) curves: CurveArgs,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
     #[command(flatten)]
@@ -92,8 +96,12 @@ pub(crate) struct InspectArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct CheckArgs {
-    /// A .toml design, a draft (.wif, .dtx, .wpo), or a .k program of a knitting machine
+    /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
+    /// file of saved cloth, or a .bcc, .obj, .usda or .tg3 file of curves that another program
+    /// wrote
     pub(crate) design: PathBuf,
+    #[command(flatten)]
+    pub(crate) curves: CurveArgs,
     /// How much nearer than touching two yarns may come before they count as piercing, as a share
     /// of the distance at which they touch. Between control points that are placed to touch, yarns
     /// come as near as 0.99 of that distance

@@ -19,7 +19,7 @@ pub(crate) struct SettingsArgs {
     pub(crate) sides: Option<u32>,
     /// Tension of the spline, 0 to below 1. If left out, 0, or the tension of saved yarns
     #[arg(long, value_name = "U")]
-    pub(crate) tension: Option<f32>,
+    tension: Option<f32>,
     /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT,
     /// lenticular:ASPECT:DISTORTION, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
     #[arg(long, value_parser = section)]
@@ -52,9 +52,9 @@ enum TopologyArg {
 }
 
 impl SettingsArgs {
-    /// The tension of the splines of a design's yarns.
-    pub(crate) fn tension(&self) -> f32 {
-        self.tension.unwrap_or(0.0)
+    /// The tension of the yarns' splines, which is their `own` if the command line gives no other.
+    pub(crate) fn tension(&self, own: f32) -> f32 {
+        self.tension.unwrap_or(own)
     }
 
     /// The first option given that yarns without a mesh can't show, if there is one.

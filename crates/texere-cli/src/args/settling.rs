@@ -18,7 +18,7 @@ pub(crate) struct SettlingArgs {
 #[derive(Debug, clap::Args)]
 pub(crate) struct RestArgs {
     /// Let yarns come to rest first, whatever the design says. Yarns move until none pierces
-    /// another or folds
+    /// another or folds. Saved yarns and curves are held at their ends
     #[arg(long, conflicts_with = "no_settle")]
     settle: bool,
     /// Leave yarns as the structure places them, whatever the design says
@@ -30,12 +30,6 @@ impl SettlingArgs {
     /// Whether the yarns of `design` settle.
     pub(crate) fn settles(&self, design: &Design) -> bool {
         self.rest.settles().unwrap_or(design.settle)
-    }
-
-    /// The option of the command line that needs yarns to settle, if one is given.
-    pub(crate) fn asked(&self) -> Option<&'static str> {
-        let plot = self.settling_plot.as_ref().map(|_| "--settling-plot");
-        if self.rest.settle { Some("--settle") } else { plot }
     }
 }
 

@@ -6,6 +6,7 @@ mod bounds;
 mod check;
 mod cli;
 mod convert;
+mod curves;
 mod draft;
 mod hostile;
 mod inspect;

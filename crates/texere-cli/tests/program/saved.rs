@@ -88,18 +88,17 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 26] = [
-        (&["inspect", &saved], 3, alone),
-        (&["check", &saved], 3, alone),
+    let cases: [(&[&str], i32, &str); 25] = [
+        (&["inspect", &saved, "--diameter", "1"], 2, "--diameter is for files of curves"),
+        (&["check", &saved, "--unit", "1"], 2, "--unit is for files of curves"),
         (&["draft", &saved, "--text"], 3, alone),
         (&["convert", &saved, &path("cloth.wif")], 3, alone),
-        (&["mesh", &saved, "-o", &ply, "--settle"], 2, "--settle needs a design"),
         (
             &["mesh", &saved, "-o", &ply, "--settling-plot", &path("x.svg")],
             2,
-            "--settling-plot needs a design",
+            "--settling-plot needs --settle",
         ),
-        (&["mesh", &saved, "-o", &ply, "--section", "circle"], 2, "--section needs a design"),
+        (&["mesh", &saved, "-o", &ply, "--section", "ellipse:0"], 2, "invalid value"),
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
         (&["mesh", &saved, "-o", &other, "--packed"], 2, "--packed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
@@ -139,42 +138,4 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     }
     assert!(fs::read(&saved).unwrap() == bytes, "the saved cloth is another one");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "something was written");
-}
-
-/// Curves of another program, with a diameter and a unit, have the mesh of the same yarns.
-#[test]
-fn curves_of_another_program_are_meshed_and_drawn() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (lines, curves, ply, other) = (path("lines.obj"), path("lines.bcc"), path("a.ply"), path("b.ply"));
-    fs::write(&lines, "v 0 0 0\nv 0.01 0 0\nv 0.02 0.01 0\nv 0 0.01 0.001\nl 1 2 3\nl 3 4 1\n").unwrap();
-    let metres = ["--diameter", "0.5", "--unit", "1000"];
-    let mesh = |input: &str, output: &str, options: &[&str]| {
-        texere(&[&["mesh", input, "--device", "cpu", "-o", output][..], options].concat())
-    };
-    let said = stdout(&mesh(&lines, &curves, &metres));
-    assert!(said.contains("1 yarn, 4 control points"), "{said}");
-    stdout(&mesh(&lines, &ply, &metres));
-    stdout(&mesh(&curves, &other, &["--diameter", "0.5"]));
-    let mesh_of_lines = fs::read(&ply).unwrap();
-    assert!(mesh_of_lines == fs::read(&other).unwrap(), "another mesh");
-    let design = path("cloth.toml");
-    fs::write(&design, DESIGNS[0].1).unwrap();
-    for (output, code, said) in [
-        (
-            mesh(&lines, &ply, &[]),
-            2,
-            "lines.obj holds curves, which have no thickness: give it with --diameter MM",
-        ),
-        (mesh(&lines, &ply, &["--diameter", "0"]), 2, "millimetres above 0"),
-        (mesh(&lines, &ply, &["--diameter", "1", "--settle"]), 2, "--settle needs a design"),
-        (mesh(&design, &ply, &["--diameter", "1"]), 2, "--diameter is for files of curves"),
-        (mesh(&design, &ply, &["--unit", "1"]), 2, "--unit is for files of curves"),
-        (mesh(&lines, &lines, &metres), 2, "which must stay"),
-        (mesh(&ply.replace("a.ply", "none.obj"), &ply, &metres), 1, "can't read"),
-    ] {
-        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
-        assert!(stderr(&output).contains(said), "{}", stderr(&output));
-    }
-    assert!(fs::read(&ply).unwrap() == mesh_of_lines);
 }

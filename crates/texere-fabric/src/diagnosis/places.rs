@@ -32,6 +32,8 @@ pub struct StitchPlace {
 /// `wale 3, course 5`, or as the thread alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThreadPlace {
+    /// The number of the yarn among all yarns, counted from 0.
+    pub yarn: usize,
     /// The thread. If the weft turns at selvedges, one yarn makes many picks, and the thread is the
     /// pick.
     pub thread: Origin,
@@ -53,10 +55,10 @@ impl fmt::Display for ThreadPlace {
             (Origin::Course(_), _, Some(stitch)) => {
                 write!(f, "wale {}, course {}", stitch.wale, stitch.course)
             }
-            (thread, _, Some(stitch)) => {
-                write!(f, "{thread}, wale {}, course {}", stitch.wale, stitch.course)
+            (_, _, Some(stitch)) => {
+                write!(f, "{}, wale {}, course {}", self.thread_name(), stitch.wale, stitch.course)
             }
-            (thread, ..) => write!(f, "{thread}"),
+            _ => f.write_str(&self.thread_name()),
         }
     }
 }
@@ -183,6 +185,16 @@ impl Woven {
 }
 
 impl ThreadPlace {
+    /// The thread in a designer's words: `end 12`. A yarn of no structure has its number, counted
+    /// from 1: `yarn 3`.
+    #[must_use]
+    pub fn thread_name(&self) -> String {
+        match self.thread {
+            Origin::Unknown => format!("{} {}", self.thread, self.yarn + 1),
+            thread => thread.to_string(),
+        }
+    }
+
     /// A place on one of `yarns`, named by the yarn alone.
     pub(crate) fn on(yarns: &Yarns, place: &YarnPlace) -> Self {
         Names { cloth: None, yarns }.place(place)
@@ -260,7 +272,7 @@ impl Names<'_> {
     fn place(&self, place: &YarnPlace) -> ThreadPlace {
         let crossing = self.crossing(place);
         let thread = self.thread(place, crossing);
-        ThreadPlace { thread, position_mm: place.position, crossing, stitch: None }
+        ThreadPlace { yarn: place.yarn, thread, position_mm: place.position, crossing, stitch: None }
     }
 
     fn crossing(&self, place: &YarnPlace) -> Option<Crossing> {

@@ -11,7 +11,7 @@ use crate::{FabricWarning, WovenRest};
 #[non_exhaustive]
 #[allow(clippy::large_enum_variant, reason = "a fabric is finished once")]
 pub enum Finished {
-    /// A knit, settled by contact.
+    /// A knit, or yarns that no structure made, settled by contact.
     Knit(Settled),
     /// Woven cloth, settled by its crossings.
     Woven(WovenRest),

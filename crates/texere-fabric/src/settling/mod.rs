@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use texere_contact::{clearance_with_progress, linking_with_progress};
 use texere_core::settling::{self, Rest, SettlingPlan};
-use texere_core::{Backend, Layout, Settings, YarnPlace, Yarns};
+use texere_core::{Backend, Layout, Origin, Settings, Yarn, YarnPlace, Yarns};
 
 pub use self::error::FinishError;
 pub use self::finished::Finished;
@@ -77,8 +77,9 @@ pub fn settle(
     tell(&mut progress, 0.0)?;
     let plan = SettlingPlan::new(&piece.settling(finish)).map_err(|source| {
         match source.yarn().and_then(|yarn| piece.yarns.layout().yarns().get(yarn)) {
+            // Errors of settling name a yarn of no structure by its number.
+            None | Some(Yarn { origin: Origin::Unknown, .. }) => source.into(),
             Some(yarn) => FinishError::Thread { thread: yarn.origin, source },
-            None => source.into(),
         }
     })?;
     let plan = Arc::new(plan);

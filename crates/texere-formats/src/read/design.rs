@@ -1,10 +1,10 @@
 //! A design, read and checked.
 
-use std::path::{self, PathBuf};
+use std::path::{self, Path, PathBuf};
 
 use texere_contact::clearance;
 use texere_core::{BackendError, Origin, Settings, YarnPlace, Yarns};
-use texere_fabric::{FabricError, Finish, FinishError, Stretch, Structure};
+use texere_fabric::{FabricError, Finish, FinishError, Piece, Stretch, Structure};
 
 use super::FilePlace;
 use super::keys::Keys;
@@ -63,6 +63,27 @@ impl Design {
     #[must_use]
     pub fn of(name: impl Into<String>, structure: Structure) -> Self {
         Self::new(name.into(), structure, Vec::new())
+    }
+
+    /// A design of yarns that a file holds, such as saved cloth or curves. Its name is that of the
+    /// file. The yarns stay as they are, unless [`Design::settle`] is set.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Yarn, Yarns};
+    /// use texere_fabric::Piece;
+    /// use texere_formats::Design;
+    /// let mut yarns = Yarns::builder();
+    /// yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
+    /// let design = Design::of_file("scans/braid.bcc", Piece::cut(yarns.build()?));
+    /// assert!(design.name == "braid" && !design.settle);
+    /// # Ok::<(), texere_core::YarnError>(())
+    /// ```
+    #[must_use]
+    pub fn of_file(path: impl AsRef<Path>, piece: Piece) -> Self {
+        let file = path.as_ref();
+        let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+        let keys = Keys { file: file.into(), ..Keys::default() };
+        Self::of(name, Structure::Yarns(piece)).left().keyed(keys).read_from(&[file.into()])
     }
 
     /// A design whose yarns settle.

@@ -7,6 +7,7 @@ use texere_core::backend::room;
 use texere_core::{
     Boundary, ControlPoint, Ends, Layout, Material, Origin, Section, Yarn, YarnError, Yarns, check_tension,
 };
+use texere_fabric::Piece;
 
 use super::ReadError;
 use super::bytes::Bytes;
@@ -24,6 +25,17 @@ pub struct SavedYarns {
     /// How the yarns go on beyond a repeat. For yarns that were saved without a repeat, it says
     /// only which are closed and which are open.
     pub boundary: Boundary,
+}
+
+impl SavedYarns {
+    /// The yarns as a piece of cloth that can settle. A repeat settles as it was saved. Other yarns
+    /// are held at their ends.
+    #[must_use]
+    pub fn into_piece(self) -> Piece {
+        let Self { yarns, boundary } = self;
+        let goes_on = boundary.ends().iter().any(|ends| matches!(ends, Ends::Repeats(_)));
+        if goes_on { Piece::new(yarns, boundary) } else { Piece::cut(yarns) }
+    }
 }
 
 /// Reads the yarns in a `.yarns` file, which [`write::yarns`](crate::write::yarns) or

@@ -306,16 +306,15 @@ impl CheckReport {
     /// Passes to `line` the cures, or why there are none, or that the cloth is clean.
     fn say_cures(&self, line: &mut impl FnMut(&'static str, String)) {
         if self.clean {
-            let jam = if self.has_settled() { "" } else { ", no jam" };
+            let jam = if self.has_settled() || self.setts.is_none() { "" } else { ", no jam" };
             let touching = self.touching;
             line("clean", format!("nothing nearer than {touching} of touching, no fold{jam}, nothing wrung"));
         } else if self.faults.is_none() {
             // No other spacing or yarn makes a program knittable, or binds cloth that falls apart.
-        } else if self.has_settled() && self.setts.is_none() {
-            line(
-                "cure",
-                "none was looked for: cures are tried on yarns as they are placed, with --no-settle".into(),
-            );
+        } else if self.setts.is_none() {
+            if self.cures.is_empty() {
+                line("cure", "none was looked for: cures are known for woven cloth alone".into());
+            }
         } else if self.cures.is_empty() {
             line(
                 "cure",

@@ -127,7 +127,7 @@ impl From<&ThreadDrawn> for DrawnReport {
     fn from(drawn: &ThreadDrawn) -> Self {
         let at = |place: Option<ThreadPlace>| {
             place.map(|place| DrawnPlace {
-                yarn: place.thread.to_string(),
+                yarn: place.thread_name(),
                 place_mm: place.position_mm,
                 crossing: Crossing::of(&place),
             })
@@ -142,7 +142,7 @@ impl From<&ThreadCrowd> for CrowdReport {
         Self {
             fill: crowd.fill,
             intervals: crowd.intervals,
-            yarn: crowd.place.thread.to_string(),
+            yarn: crowd.place.thread_name(),
             thickness_mm: crowd.thickness_mm,
             pitch_mm: crowd.pitch_mm,
             place_mm: crowd.place.position_mm,
@@ -155,7 +155,7 @@ impl From<&ThreadContact> for ContactReport {
     fn from(contact: &ThreadContact) -> Self {
         Self {
             ratio: contact.ratio,
-            yarns: contact.places.map(|place| place.thread.to_string()),
+            yarns: contact.places.map(|place| place.thread_name()),
             place_mm: contact.middle_mm(),
             crossings: contact.places.map(|place| Crossing::of(&place)),
         }
@@ -167,7 +167,7 @@ impl From<&ThreadBend> for CurvatureReport {
         let place = bend.place.as_ref();
         Self {
             min: bend.radii,
-            yarn: place.map(|place| place.thread.to_string()),
+            yarn: place.map(ThreadPlace::thread_name),
             place_mm: place.map(|place| place.position_mm),
             crossing: place.and_then(Crossing::of),
         }
@@ -271,8 +271,13 @@ mod tests {
     fn cloth_whose_yarns_do_not_meet_is_as_clear_as_is_looked() {
         assert_eq!(min(f64::INFINITY, None), json!(CLEARANCE_NEAR));
         assert_eq!(min(0.5, None), json!(0.5));
-        let place =
-            ThreadPlace { thread: Origin::End(1), position_mm: [0.0; 3], crossing: None, stitch: None };
+        let place = ThreadPlace {
+            yarn: 0,
+            thread: Origin::End(1),
+            position_mm: [0.0; 3],
+            crossing: None,
+            stitch: None,
+        };
         let crowd = ThreadCrowd { place, thickness_mm: 1.0, pitch_mm: None, intervals: 2000, fill: 0.5 };
         assert_eq!(min(f64::INFINITY, Some(crowd)), Value::Null);
         assert_eq!(min(0.7, Some(crowd)), json!(0.7));

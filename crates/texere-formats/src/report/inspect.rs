@@ -296,10 +296,13 @@ impl ClothReport {
             let weight = yarn.weight_g.map(|grams| format!(", {grams:.3} g")).unwrap_or_default();
             lines.push(("", format!("{} {:.3}{weight}", yarn.yarn, yarn.length_mm / 1000.0)));
         }
-        let weight = measures
-            .areal_weight_g_per_m2
-            .map_or("not known: not every yarn has tex".into(), |grams| format!("{grams:.1} g/m²"));
-        lines.push(("weight", weight));
+        // Yarns that no structure made have no area, so their own weights are all that is known.
+        let weight = match measures.areal_weight_g_per_m2 {
+            Some(grams) => Some(format!("{grams:.1} g/m²")),
+            None if measures.yarns.iter().all(|yarn| yarn.tex.is_some()) => None,
+            None => Some("not known: not every yarn has tex".into()),
+        };
+        lines.extend(weight.map(|weight| ("weight", weight)));
         if let Some(knit) = &measures.knit {
             let tightness =
                 knit.tightness.map(|tightness| format!(", tightness {tightness:.1}")).unwrap_or_default();

@@ -61,7 +61,7 @@ impl From<KnitMeasures> for LoopsReport {
 pub(crate) struct YarnReport {
     pub(crate) yarn: String,
     color: String,
-    tex: Option<f32>,
+    pub(crate) tex: Option<f32>,
     pub(crate) length_mm: f64,
     pub(crate) weight_g: Option<f64>,
 }

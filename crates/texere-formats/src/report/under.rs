@@ -34,7 +34,7 @@ pub(crate) fn under(design: &Design, yarns: &Yarns, point: [f32; 2]) -> Vec<Yarn
         let course =
             || design.structure.warp_knitted().and(place.source).map(|course| format!("course {course}"));
         YarnUnder {
-            yarn: thread.thread.to_string(),
+            yarn: thread.thread_name(),
             material,
             z_mm: place.position[2],
             place: place_of.or_else(course),

@@ -1,4 +1,4 @@
-//! The report of a knit whose yarns have settled.
+//! The report of yarns that have settled by contact.
 
 use std::fmt;
 
@@ -65,7 +65,7 @@ impl KnitRestReport {
             let [one, other] = passage.places.map(|place| design.structure.place(&settled.yarns, &place));
             let middle = |axis: usize| f64::midpoint(one.position_mm[axis], other.position_mm[axis]);
             PassageReport {
-                yarns: [one, other].map(|place| place.thread.to_string()),
+                yarns: [one, other].map(|place| place.thread_name()),
                 place_mm: std::array::from_fn(middle),
                 change: passage.change,
             }

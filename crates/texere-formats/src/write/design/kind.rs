@@ -8,6 +8,7 @@ pub(super) fn kind(structure: &Structure) -> &'static str {
         Structure::Woven(_) => "woven cloth",
         Structure::Weft(_) => "a weft knit",
         Structure::Warp(_) => "a warp knit",
+        Structure::Yarns(_) => "yarns that no structure made",
         _ => "a structure of this kind",
     }
 }

@@ -147,7 +147,8 @@ const LINKED_MOST: usize = 36;
 /// Compiles and tests the package `texere` without features, and then with one feature at a time.
 /// Counts the packages that it links with its default features.
 fn features(steps: &mut Steps) {
-    for feature in ["", "glb", "images", "knitout", "obj", "pictures", "ply", "stl", "toml", "wif"] {
+    for feature in ["", "glb", "images", "knitout", "obj", "pictures", "ply", "stl", "texgen", "toml", "wif"]
+    {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
         let package = ["--package", "texere", "--locked", "--no-default-features", "--features", feature];
         steps.cargo(&name, &[&["clippy"][..], &package, &["--", "-D", "warnings"]].concat(), &[]);

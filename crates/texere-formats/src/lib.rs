@@ -8,7 +8,7 @@
 // A build without some formats still compiles the code that all formats share, and does not use all
 // of that code. A build with all formats has no unused code.
 #![cfg_attr(
-    not(all(feature = "glb", feature = "knitout", feature = "ply", feature = "toml")),
+    not(all(feature = "glb", feature = "knitout", feature = "ply", feature = "texgen", feature = "toml")),
     allow(dead_code, unused_variables, reason = "formats are left out that it is for")
 )]
 

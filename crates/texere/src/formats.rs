@@ -4,6 +4,7 @@
 use std::io::Cursor;
 
 use crate::backend::NullBackend;
+use crate::read::{CurveScale, curves_from};
 use crate::write::{Format, mesh_to};
 use crate::{ControlPoint, Pipeline, ReadError, WriteError, Yarn, Yarns, read};
 
@@ -26,6 +27,16 @@ fn a_design_that_this_build_cannot_read_is_said_to_need_its_feature() {
             }
             other => panic!("{file}: {other:?}"),
         }
+    }
+}
+
+#[test]
+fn curves_that_this_build_cannot_read_are_said_to_need_their_feature() {
+    match curves_from("yarns.tg3", b"no XML", CurveScale::default()) {
+        Err(error @ ReadError::Feature { feature: "texgen", .. }) => {
+            assert!(!cfg!(feature = "texgen"), "{error}");
+        }
+        other => assert!(cfg!(feature = "texgen") && other.is_err(), "{other:?}"),
     }
 }
 

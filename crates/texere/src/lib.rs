@@ -105,6 +105,8 @@
 //! | `wif` | drafts: WIF, Fiberworks PCW and WeavePoint |
 //! | `knitout` | programs of knitting machines, alone and in design files |
 //! | `glb`, `ply` | meshes as glTF 2.0 binary and as binary PLY |
+//! | `obj`, `stl` | meshes as OBJ, with a file of materials, and as binary STL |
+//! | `texgen` | yarns of TexGen (`.tg3`), read as curves |
 //! | `opencl`, `wgpu` | GPU backends |
 //! | `render` | pictures of cloth; brings `wgpu` and `pictures` |
 //! | `bake` | maps of cloth that tile, as PNG, EXR, U3M and MaterialX; brings `render` |

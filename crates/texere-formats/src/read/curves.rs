@@ -10,6 +10,7 @@ use super::bytes::Bytes;
 use super::curve_scale::CurveScale;
 use super::file::{bytes_of, open, small};
 use super::polylines::polylines;
+#[cfg(feature = "texgen")]
 use super::texgen::texgen;
 use super::usd::usd;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
@@ -33,8 +34,8 @@ use crate::yarns_file::BYTES_MAX;
 /// points beyond the ends of a Catmull-Rom curve itself. One file is read: stages that refer to
 /// others, or have variants, are refused.
 ///
-/// A file that ends in `.tg3` is read as one of TexGen, the University of Nottingham's modeller of
-/// textiles. Each of its yarns becomes one yarn, whole and once: repeats and the domain are passed
+/// A file that ends in `.tg3` (feature `texgen`) is read as one of TexGen, the University of
+/// Nottingham's modeller of textiles. Each of its yarns becomes one yarn, whole and once: repeats and the domain are passed
 /// over. Its path, by Bézier curves, cubic splines or straight lines between master nodes, becomes
 /// a spline as the curves of USD do. The yarn has the width and the height of its section at each
 /// node, and its shape; a yarn whose sections have several shapes is elliptic.
@@ -49,6 +50,7 @@ use crate::yarns_file::BYTES_MAX;
 /// section that no yarn may have; [`ReadError::MissingKey`] for a file without curves, and for a
 /// BCC or an OBJ file if `scale` has no diameter; [`ReadError::Yarns`] for coordinates or a
 /// diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16 GiB;
+/// [`ReadError::Feature`] for a kind of file that this build was made without;
 /// [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
 ///
 /// ```
@@ -91,8 +93,13 @@ pub fn curves_from(name: impl AsRef<Path>, bytes: &[u8], scale: CurveScale) -> R
     if is(&["obj"]) {
         return polylines(file, bytes, scale);
     }
+    #[cfg(feature = "texgen")]
     if is(&["tg3"]) {
         return texgen(file, bytes, scale);
+    }
+    #[cfg(not(feature = "texgen"))]
+    if is(&["tg3"]) {
+        return Err(ReadError::Feature { file: file.into(), what: "yarns of TexGen", feature: "texgen" });
     }
     // The binary form is refused by its sign.
     if is(&["usd", "usda", "usdc", "usdz"]) {

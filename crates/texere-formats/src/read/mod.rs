@@ -29,6 +29,7 @@ mod polylines;
 mod program_place;
 mod refusal;
 mod spline;
+#[cfg(feature = "texgen")]
 mod texgen;
 mod threads;
 mod usd;

@@ -35,10 +35,11 @@ use crate::yarns_file::BYTES_MAX;
 /// others, or have variants, are refused.
 ///
 /// A file that ends in `.tg3` (feature `texgen`) is read as one of TexGen, the University of
-/// Nottingham's modeller of textiles. Each of its yarns becomes one yarn, whole and once: repeats and the domain are passed
-/// over. Its path, by Bézier curves, cubic splines or straight lines between master nodes, becomes
-/// a spline as the curves of USD do. The yarn has the width and the height of its section at each
-/// node, and its shape; a yarn whose sections have several shapes is elliptic.
+/// Nottingham's modeller of textiles. Each of its yarns becomes one yarn, whole and once: repeats
+/// and the domain are passed over. Its path, by Bézier curves, cubic splines or straight lines
+/// between master nodes, becomes a spline as the curves of USD do. The yarn has the width and the
+/// height of its section at each node, and its shape; a yarn whose sections have several shapes is
+/// elliptic.
 ///
 /// Any other file is read as BCC, Binary Curve Collection. If a BCC or a USD file says that x or y
 /// is up, the curves are turned so that this axis becomes z.

@@ -19,6 +19,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
         let own = [
             ("--packed", args.packed),
             ("--compressed", args.compressed),
+            ("--instanced", args.instanced),
             ("--attributes", !args.attributes.is_empty()),
         ];
         let own = own.into_iter().find_map(|(option, is_given)| is_given.then_some(option));
@@ -73,10 +74,11 @@ impl Cloth {
 /// The file to write, which replaces none of `files`.
 fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
     let output = Output::to(&args.output).sparing(files).attributes(args.attributes.iter().copied());
-    match (args.packed, args.compressed, args.linear) {
-        (true, ..) => output.packed(),
-        (_, true, _) => output.compressed(),
-        (.., true) => output.linear(),
+    match args {
+        MeshArgs { packed: true, .. } => output.packed(),
+        MeshArgs { compressed: true, .. } => output.compressed(),
+        MeshArgs { instanced: true, .. } => output.instanced(),
+        MeshArgs { linear: true, .. } => output.linear(),
         _ => output,
     }
 }

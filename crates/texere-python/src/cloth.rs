@@ -157,8 +157,8 @@ impl Cloth {
     /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
     /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
     /// yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about half of that,
-    /// for readers that know the extension ``EXT_meshopt_compression``. ``attributes`` are those of
-    /// :meth:`Mesh.write`.
+    /// for readers that know the extension ``EXT_meshopt_compression``. ``instanced`` and
+    /// ``attributes`` are those of :meth:`Mesh.write`.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
     /// mass, for simulators that read no other curves.
     ///
@@ -167,9 +167,10 @@ impl Cloth {
     /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
-    /// be written, packed or compressed or can't hold the attributes; ValueError for one that is to
-    /// be several of packed, compressed and linear, and for an unknown attribute.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, attributes=Vec::new(), linear=false, device="auto"))]
+    /// be written, packed, compressed or instanced or can't hold the attributes; ValueError for one
+    /// that is to be several of packed, compressed, instanced and linear, and for an unknown
+    /// attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new(), linear=false, device="auto"))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn write(
         &self,
@@ -177,12 +178,13 @@ impl Cloth {
         path: PathBuf,
         packed: bool,
         compressed: bool,
+        instanced: bool,
         attributes: Vec<String>,
         linear: bool,
         device: &str,
     ) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, packed, compressed, linear)?
+        let output = mesh::output(&path, [packed, compressed, instanced, linear])?
             .attributes(mesh::named(&attributes)?)
             .sparing(self.cloth.design().files());
         output.check().raise(py)?;

@@ -199,7 +199,9 @@ impl Mesh {
     /// not at all. It is made again while it is written, piece by piece. ``packed`` halves the
     /// vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
     /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
-    /// half of that, for readers that know the extension ``EXT_meshopt_compression``.
+    /// half of that, for readers that know the extension ``EXT_meshopt_compression``. ``instanced``
+    /// writes a ``.glb`` that holds each part of a yarn once, as long as 16 control points or a
+    /// cap, for readers that know ``EXT_mesh_gpu_instancing``.
     /// ``attributes`` are further numbers of the vertices of a ``.glb`` or a ``.ply``: of ``uv``,
     /// the share of a turn round the yarn and the mm along it; ``tangent``, the direction along the
     /// yarn; ``yarn``, the yarn's number.
@@ -209,18 +211,19 @@ impl Mesh {
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written,
-    /// packed or compressed or can't hold the attributes; ValueError for one that is to be packed
-    /// and compressed, and for an unknown attribute.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, attributes=Vec::new()))]
+    /// packed, compressed or instanced or can't hold the attributes; ValueError for one that is to
+    /// be several of the three, and for an unknown attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new()))]
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
         packed: bool,
         compressed: bool,
+        instanced: bool,
         attributes: Vec<String>,
     ) -> PyResult<()> {
-        let output = output(&path, packed, compressed, false)?.attributes(named(&attributes)?);
+        let output = output(&path, [packed, compressed, instanced, false])?.attributes(named(&attributes)?);
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -301,18 +304,20 @@ pub(crate) fn named(attributes: &[String]) -> PyResult<Vec<VertexAttribute>> {
     attributes.iter().map(named).collect()
 }
 
-/// The file that a cloth, yarns or a mesh are written to.
+/// The file that a cloth, yarns or a mesh are written to: packed, compressed, instanced or linear,
+/// one of them at most.
 ///
-/// **Errors**: `ValueError` for a file that is to be several of packed, compressed and linear.
-pub(crate) fn output(path: &Path, packed: bool, compressed: bool, linear: bool) -> PyResult<Output> {
+/// **Errors**: `ValueError` for a file that is to be several of them.
+pub(crate) fn output(path: &Path, forms: [bool; 4]) -> PyResult<Output> {
     let output = Output::to(path);
-    match (packed, compressed, linear) {
-        (false, false, false) => Ok(output),
-        (true, false, false) => Ok(output.packed()),
-        (false, true, false) => Ok(output.compressed()),
-        (false, false, true) => Ok(output.linear()),
+    match forms {
+        [false, false, false, false] => Ok(output),
+        [true, false, false, false] => Ok(output.packed()),
+        [false, true, false, false] => Ok(output.compressed()),
+        [false, false, true, false] => Ok(output.instanced()),
+        [false, false, false, true] => Ok(output.linear()),
         _ => Err(PyValueError::new_err(
-            "a file is packed (.glb), compressed (.glb) or linear (.usda): one of them",
+            "a file is packed (.glb), compressed (.glb), instanced (.glb) or linear (.usda): one of them",
         )),
     }
 }

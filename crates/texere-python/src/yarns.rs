@@ -282,7 +282,8 @@ impl Yarns {
     /// and for a file that can't be written.
     #[pyo3(signature = (path, *, linear=false))]
     fn write(&self, py: Python<'_>, path: PathBuf, linear: bool) -> PyResult<()> {
-        let (yarns, output): (&texere::Yarns, _) = (&self.yarns, mesh::output(&path, false, false, linear)?);
+        let (yarns, output): (&texere::Yarns, _) =
+            (&self.yarns, mesh::output(&path, [false, false, false, linear])?);
         watch::quietly(py, |_| write(yarns, output))
     }
 

@@ -118,6 +118,36 @@ def test_compressed_files_are_valid_and_near_plain_ones(tmp_path, opened, design
     assert_near(yarns, ours)
 
 
+def drawn(yarns):
+    """The corners of all triangles that a file draws, mm."""
+    return numpy.concatenate(
+        [numpy.array(yarn["positions"])[numpy.reshape(yarn["indices"], (-1, 3))] / 0.001 for yarn in yarns]
+    )
+
+
+@pytest.mark.parametrize("design", ["two-ply", "jersey", "tartan"])
+@pytest.mark.parametrize("caps", [False, True])
+def test_instanced_files_are_valid_and_draw_what_plain_ones_draw(tmp_path, opened, design, caps):
+    mesh = texere.read(f"designs/{design}.toml").placed().mesh(sides=6, caps=caps, device="cpu")
+    plain, instanced = tmp_path / "plain.glb", tmp_path / "instanced.glb"
+    mesh.write(plain)
+    mesh.write(instanced, instanced=True)
+    assert instanced.stat().st_size < plain.stat().st_size
+    report, parts = opened(instanced)
+    # The validator knows nothing of the extension.
+    assert {message["code"] for message in faults(report)} <= {"UNSUPPORTED_EXTENSION"}
+    assert report["info"]["extensionsRequired"] == ["EXT_mesh_gpu_instancing"]
+    assert len({part["name"] for part in parts}) < len(parts)
+    theirs, ours = drawn(parts), drawn(opened(plain)[1])
+    assert theirs.shape == ours.shape
+    # Sums that would differ if a part lay elsewhere, or had other triangles.
+    for of in [lambda corners: corners.mean(axis=1), lambda corners: numpy.cross(corners[:, 0], corners[:, 1])]:
+        for power in [1, 2, 3]:
+            own, exact = ((of(corners) ** power).sum(axis=0) for corners in [theirs, ours])
+            scale = (numpy.abs(of(ours)) ** power).sum(axis=0)
+            assert (numpy.abs(own - exact) < 1e-5 * scale).all()
+
+
 @pytest.mark.parametrize("options", [{}, {"packed": True}, {"compressed": True}])
 @pytest.mark.parametrize("design", ["two-ply", "locknit"])
 def test_attributes_are_valid_and_those_of_the_mesh(tmp_path, opened, design, options):
@@ -157,12 +187,14 @@ def test_attributes_are_refused_by_name(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_only_glb_is_packed_and_compressed(tmp_path):
+def test_only_glb_is_packed_compressed_and_instanced(tmp_path):
     cloth = texere.read("designs/plain.toml").placed()
     for name in ["cloth.ply", "cloth.yarns"]:
-        for option in ["packed", "compressed"]:
+        for option in ["packed", "compressed", "instanced"]:
             with pytest.raises(texere.Error):
                 cloth.write(tmp_path / name, device="cpu", **{option: True})
     with pytest.raises(ValueError, match="one of them"):
         cloth.write(tmp_path / "cloth.glb", packed=True, compressed=True, device="cpu")
+    with pytest.raises(texere.Error, match="instanced GLB can't hold"):
+        cloth.write(tmp_path / "cloth.glb", instanced=True, attributes=["uv"], device="cpu")
     assert list(tmp_path.iterdir()) == []

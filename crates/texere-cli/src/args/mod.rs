@@ -138,6 +138,11 @@ pub(crate) struct MeshArgs {
     /// EXT_meshopt_compression says. Programs that don't know the extension refuse the file
     #[arg(long, conflicts_with = "packed")]
     pub(crate) compressed: bool,
+    /// Write a .glb that holds each part of a yarn once, as long as 16 control points or a cap, and
+    /// the places at which it recurs, as the extension EXT_mesh_gpu_instancing says. Programs that
+    /// don't know the extension refuse the file
+    #[arg(long, conflicts_with_all = ["packed", "compressed", "attributes"])]
+    pub(crate) instanced: bool,
     /// Give the vertices of a .glb or a .ply attributes, with commas between: uv is the share of a
     /// turn round the yarn and the mm along it, tangent the direction along the yarn, yarn the
     /// yarn's number, counted from 0. An .obj holds uv alone, which it always has
@@ -145,7 +150,7 @@ pub(crate) struct MeshArgs {
     pub(crate) attributes: Vec<VertexAttribute>,
     /// Write the curves of a .usda file as straight lines between control points, with thickness
     /// and mass, for simulators that read no other curves
-    #[arg(long, conflicts_with_all = ["packed", "compressed"])]
+    #[arg(long, conflicts_with_all = ["packed", "compressed", "instanced"])]
     pub(crate) linear: bool,
     #[command(flatten)]
     pub(crate) curves: CurveArgs,

@@ -19,6 +19,7 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
             ("glb", "--caps"),
             ("glb", "--packed"),
             ("glb", "--compressed"),
+            ("glb", "--instanced"),
             ("ply", "--attributes=uv,tangent,yarn"),
         ] {
             let [own, other] = ["own", "other"].map(|which| path(&format!("{name}-{which}.{ending}")));
@@ -88,7 +89,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 25] = [
+    let cases: [(&[&str], i32, &str); 28] = [
         (&["inspect", &saved, "--diameter", "1"], 2, "--diameter is for files of curves"),
         (&["check", &saved, "--unit", "1"], 2, "--unit is for files of curves"),
         (&["draft", &saved, "--text"], 3, alone),
@@ -104,6 +105,9 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
         (&["mesh", &saved, "-o", &other, "--compressed"], 2, "--compressed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--compressed"], 2, "does not end in .glb"),
+        (&["mesh", &saved, "-o", &other, "--instanced"], 2, "--instanced needs a mesh"),
+        (&["mesh", &design, "-o", &ply, "--instanced"], 2, "does not end in .glb"),
+        (&["mesh", &design, "-o", &path("c.glb"), "--instanced", "--packed"], 2, "cannot be used with"),
         (&["mesh", &saved, "-o", &other, "--attributes", "uv"], 2, "--attributes needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--attributes", "uv,colour"], 2, "invalid value 'colour'"),
         (

@@ -84,6 +84,17 @@ pub enum WriteError {
         /// The largest side that can be packed, mm.
         limit_mm: f32,
     },
+    /// An instanced GLB holds different parts of yarns once each. Too many of this cloth's parts
+    /// are different.
+    #[error(
+        "too few parts of the yarns recur: {parts} different ones take more than the {limit} bytes of instanced GLB; write packed or compressed GLB"
+    )]
+    TooFewRepeats {
+        /// Number of different parts that came.
+        parts: usize,
+        /// The most bytes of vertices of different parts.
+        limit: u64,
+    },
     /// PLY numbers vertices with 32 bits, and programs that read OBJ number them with 31. Fewer
     /// sides or subdivisions make fewer vertices.
     #[error(

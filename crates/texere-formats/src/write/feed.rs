@@ -12,7 +12,7 @@ use super::Format;
 use super::WriteError;
 use super::bounds::Bounds;
 #[cfg(feature = "glb")]
-use super::glb::{CompressedGlbWriter, GlbWriter};
+use super::glb::{CompressedGlbWriter, GlbWriter, InstancedGlbWriter};
 use super::mesh_form::MeshForm;
 use super::mesh_writer::{MeshWriter, Run, yarn_runs};
 #[cfg(feature = "obj")]
@@ -41,6 +41,10 @@ fn writer<'a, W: Write + Seek + 'a>(
         #[cfg(feature = "glb")]
         Format::CompressedGlb => {
             Ok(Box::new(CompressedGlbWriter::start(target, plan, chunks, materials, form, bounds)?))
+        }
+        #[cfg(feature = "glb")]
+        Format::InstancedGlb => {
+            Ok(Box::new(InstancedGlbWriter::start(target, plan, materials, form, bounds)))
         }
         #[cfg(feature = "ply")]
         Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials, form)?)),
@@ -82,8 +86,8 @@ pub(super) struct Feed<'a, W: Write + Seek> {
 }
 
 impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
-    /// Starts a file for the mesh of `plan`, cut into `chunks`. [`check`] has passed. A packed
-    /// format needs the `bounds` of all yarns. Others have none.
+    /// Starts a file for the mesh of `plan`, cut into `chunks`. [`check`] has passed. There are
+    /// `bounds` of all yarns if the format needs them.
     pub(super) fn open(
         form: MeshForm,
         target: Target<W>,

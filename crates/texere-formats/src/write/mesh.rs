@@ -90,7 +90,7 @@ fn whole<W: Write + Seek>(
     form.format.check_holds(form.attributes)?;
     feed::check(&mesh.plan, &mesh.materials)?;
     let target = start()?;
-    let bounds = if form.format.is_packed() { Some(bounds(mesh)?) } else { None };
+    let bounds = if form.format.needs_bounds() { Some(bounds(mesh)?) } else { None };
     let mut feed = Feed::open(form, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds.as_ref())?;
     let (given, planned) = (mesh.vertices.len() as u64, feed.planned());
     if given != planned {
@@ -227,7 +227,7 @@ fn streamed<W: Write + Seek>(
     form.format.check_holds(form.attributes)?;
     feed::check(&plan, materials)?;
     let target = start()?;
-    let bounds = if form.format.is_packed() { Some(survey(&mut run, chunks()?)?) } else { None };
+    let bounds = if form.format.needs_bounds() { Some(survey(&mut run, chunks()?)?) } else { None };
     let mut feed = Feed::open(form, target, &plan, chunks()?, materials, bounds.as_ref())?;
     let answer = run.stream(chunks()?, |chunk, piece| {
         let fed = match piece {

@@ -94,8 +94,8 @@ impl Attributes {
 }
 
 impl Format {
-    /// The format with `attributes` of vertices. Not every format holds each of them: STL holds
-    /// none, and OBJ texture coordinates alone, which it always has.
+    /// The format with `attributes` of vertices. Not every format holds each of them: STL and
+    /// instanced GLB hold none, and OBJ texture coordinates alone, which it always has.
     pub fn with(self, attributes: impl IntoIterator<Item = VertexAttribute>) -> MeshForm {
         let mut form = MeshForm::from(self);
         form.attributes.add(attributes);
@@ -109,6 +109,7 @@ impl Format {
         let Attributes { uv, tangent, yarn } = attributes;
         let (format, unheld) = match self {
             Self::Stl => ("STL", [uv, tangent, yarn]),
+            Self::InstancedGlb => ("instanced GLB", [uv, tangent, yarn]),
             Self::Obj => ("OBJ", [false, tangent, yarn]),
             Self::Glb | Self::PackedGlb | Self::CompressedGlb | Self::Ply => return Ok(()),
         };

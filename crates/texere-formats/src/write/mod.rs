@@ -46,7 +46,6 @@
 
 mod beside;
 mod bounds;
-#[cfg(any(feature = "glb", feature = "obj", feature = "ply"))]
 mod corners;
 mod curve_format;
 mod curves;
@@ -80,6 +79,9 @@ mod target;
 #[cfg(test)]
 mod tests;
 mod unfinished;
+mod usda;
+#[cfg(feature = "glb")]
+mod yarn_name;
 mod yarns;
 
 pub use curve_format::CurveFormat;

@@ -40,6 +40,7 @@ enum Form {
     Plain,
     Packed,
     Compressed,
+    Instanced,
     Linear,
 }
 
@@ -108,6 +109,33 @@ impl Output {
         self
     }
 
+    /// Writes parts of yarns that recur once, as [`Format::InstancedGlb`]. The path has to end in
+    /// `.glb`.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_formats::write::{self, Output};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let [packed, instanced] = ["packed.glb", "instanced.glb"].map(|name| folder.path().join(name));
+    /// let mut yarns = Yarns::builder();
+    /// let points: Vec<_> = (0..2000).map(|step| ControlPoint::new(step as f32, 0.0, 0.0, 0.1)).collect();
+    /// for _ in 0..10 {
+    ///     yarns.yarn(Yarn::default(), &points[..400]);
+    /// }
+    /// let mesh = Pipeline::new(&yarns.build()?).sides(12).mesh(&ParallelBackend::open()?)?;
+    /// write::mesh(&mesh, Output::to(&packed).packed())?;
+    /// write::mesh(&mesh, Output::to(&instanced).instanced())?;
+    /// let [packed, instanced] = [packed, instanced].map(|file| std::fs::metadata(file).unwrap().len());
+    /// assert!(instanced < packed / 20);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn instanced(mut self) -> Self {
+        self.form = Form::Instanced;
+        self
+    }
+
     /// Writes curves as [`CurveFormat::LinearUsda`]. The path has to end in `.usda`.
     ///
     /// ```
@@ -162,6 +190,7 @@ impl Output {
         let format = match self.form {
             Form::Packed => Format::PackedGlb,
             Form::Compressed => Format::CompressedGlb,
+            Form::Instanced => Format::InstancedGlb,
             Form::Plain | Form::Linear => Format::from_path(&self.path)?,
         };
         Ok(MeshForm { format, attributes: self.attributes })
@@ -175,7 +204,9 @@ impl Output {
         self.check_form()?;
         match self.form {
             Form::Linear => Ok(CurveFormat::LinearUsda),
-            Form::Plain | Form::Packed | Form::Compressed => CurveFormat::from_path(&self.path),
+            Form::Plain | Form::Packed | Form::Compressed | Form::Instanced => {
+                CurveFormat::from_path(&self.path)
+            }
         }
     }
 
@@ -183,12 +214,17 @@ impl Output {
     /// holds the attributes, if there are any.
     fn check_form(&self) -> Result<(), WriteError> {
         if self.attributes.any() {
-            Format::from_path(&self.path)?.check_holds(self.attributes)?;
+            let format = match self.form {
+                Form::Instanced => Format::InstancedGlb,
+                _ => Format::from_path(&self.path)?,
+            };
+            format.check_holds(self.attributes)?;
         }
         let expected = match self.form {
             Form::Plain => return Ok(()),
             Form::Packed => Format::PackedGlb.extension(),
             Form::Compressed => Format::CompressedGlb.extension(),
+            Form::Instanced => Format::InstancedGlb.extension(),
             Form::Linear => CurveFormat::LinearUsda.extension(),
         };
         self.clone().ending(expected).map(drop)

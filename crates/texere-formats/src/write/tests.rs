@@ -72,7 +72,7 @@ fn write(mesh: &Mesh, form: impl Into<MeshForm>, piece: usize, out: Failing) -> 
             &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize],
         );
     }
-    let bounds = form.format.is_packed().then_some(&bounds);
+    let bounds = form.format.needs_bounds().then_some(&bounds);
     let mut feed = Feed::open(form, target, &mesh.plan, &mesh.chunks, &mesh.materials, bounds)?;
     for chunk in &mesh.chunks {
         let own = &mesh.vertices[chunk.first_vertex() as usize..][..chunk.vertices() as usize];
@@ -91,7 +91,9 @@ fn a_full_disk_is_an_error_at_any_byte() {
     let folder = tempfile::tempdir().unwrap();
     let on_disk = |room| Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room };
     let mesh = mesh();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
+    for format in
+        Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb])
+    {
         let plenty = 1 << 30;
         let needed = plenty - write(&mesh, format, usize::MAX, on_disk(plenty)).unwrap().room;
         for room in (0..needed).step_by(100_003).chain([1, 11, 12, needed - 1]) {
@@ -110,7 +112,8 @@ fn a_full_disk_is_an_error_at_any_byte() {
 fn pieces_of_any_size_give_the_same_file() {
     let mesh = mesh();
     let folder = tempfile::tempdir().unwrap();
-    let formats = Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]);
+    let formats =
+        Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
     let with = [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply]
         .map(|format| format.with(VertexAttribute::ALL));
     for form in formats.map(MeshForm::from).chain(with) {

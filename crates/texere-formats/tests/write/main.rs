@@ -8,6 +8,7 @@ mod draft;
 mod fabric;
 mod files;
 mod glb;
+mod instanced;
 mod knit_draft;
 mod knits;
 mod obj;

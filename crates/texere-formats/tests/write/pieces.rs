@@ -120,17 +120,26 @@ fn of_obj(bytes: &[u8]) -> usize {
     Pieces::of(file.positions.len(), corners).count()
 }
 
-/// Calls `check` with the files of `mesh` and of `stream` in each format, without attributes, and
-/// with all of them if the format holds them.
-fn each_file(make: impl Fn() -> Pipeline<'static>, check: impl Fn(Format, bool, Vec<u8>)) {
+/// The formats in which a yarn is one piece.
+const WHOLE: [Format; 6] =
+    [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply, Format::Stl, Format::Obj];
+
+/// Calls `check` with the files of `mesh` and of `stream` in each of the `formats`, without
+/// attributes, and with all of them if the format holds them.
+fn each_file(
+    formats: &[Format],
+    make: impl Fn() -> Pipeline<'static>,
+    check: impl Fn(Format, bool, Vec<u8>),
+) {
     let folder = tempfile::tempdir().unwrap();
-    for format in Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb]) {
+    for &format in formats {
         let path = folder.path().join("fabric").with_extension(format.extension());
-        let holds = !matches!(format, Format::Stl | Format::Obj);
+        let holds = !matches!(format, Format::Stl | Format::Obj | Format::InstancedGlb);
         for with in [false, true].into_iter().take(1 + usize::from(holds)) {
             let output = || match format {
                 Format::PackedGlb => Output::to(&path).packed(),
                 Format::CompressedGlb => Output::to(&path).compressed(),
+                Format::InstancedGlb => Output::to(&path).instanced(),
                 _ => Output::to(&path),
             };
             let attributes = VertexAttribute::ALL.into_iter().filter(|_| with);
@@ -171,6 +180,7 @@ fn a_yarn_is_one_piece_however_it_is_cut() {
         {
             let expected = yarns.layout().yarns().len() + if caps { 2 * open } else { 0 };
             each_file(
+                &WHOLE,
                 || pipeline(yarns, caps, way),
                 |format, with, bytes| {
                     let expected =
@@ -190,6 +200,7 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
             let first = std::cell::RefCell::new(BTreeMap::new());
             for way in ways() {
                 each_file(
+                    &[&WHOLE[..], &[Format::InstancedGlb]].concat(),
                     || pipeline(yarns, caps, way),
                     |format, with, bytes| {
                         let mut first = first.borrow_mut();
@@ -217,6 +228,7 @@ fn a_region_has_a_piece_for_each_run_of_rings() {
     assert!(runs > 1);
     for (_, limits) in ways() {
         each_file(
+            &WHOLE,
             || part(limits),
             |format, with, bytes| {
                 let runs = if format == Format::Stl { by_place(&uncut) } else { runs };

@@ -164,6 +164,7 @@ class Cloth:
         *,
         packed: bool = False,
         compressed: bool = False,
+        instanced: bool = False,
         attributes: Sequence[_Attribute] = [],
         linear: bool = False,
         device: str = "auto",
@@ -231,6 +232,7 @@ class Mesh:
         *,
         packed: bool = False,
         compressed: bool = False,
+        instanced: bool = False,
         attributes: Sequence[_Attribute] = [],
     ) -> None: ...
     def to_trimesh(self) -> Any: ...

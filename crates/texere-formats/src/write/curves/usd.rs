@@ -25,6 +25,7 @@ use texere_core::{ControlPoint, Material, Yarns};
 
 use super::super::WriteError;
 use super::super::target::Target;
+use super::super::usda::{START, quoted, triple};
 
 /// The kinds of curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,12 +49,7 @@ pub(super) fn write<W: Write>(
     target: Target<W>,
 ) -> Result<Target<W>, WriteError> {
     let mut stage = Stage { target };
-    stage.line(format_args!(
-        "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n    doc = \"texere {}: x along the weft or course, \
-         y along the warp or wale, z out of the face\"\n    metersPerUnit = 0.001\n    upAxis = \"Z\"\n)\n\n\
-         def Xform \"cloth\" (\n    kind = \"component\"\n)\n{{",
-        env!("CARGO_PKG_VERSION")
-    ))?;
+    stage.text(START)?;
     for (number, material) in yarns.materials().iter().enumerate() {
         for closed in [false, true] {
             let own = Own { yarns, basis, material: number as u32, closed };
@@ -179,24 +175,6 @@ fn extent(own: &Own<'_>) -> [[f32; 3]; 2] {
     }
     let radius = own.curves().flat_map(Curve::diameters).fold(0.0, f32::max) / 2.0;
     [extent[0].map(|low| low - radius), extent[1].map(|high| high + radius)]
-}
-
-/// A point or a colour as the format writes it.
-fn triple([x, y, z]: [f32; 3]) -> String {
-    format!("({x}, {y}, {z})")
-}
-
-/// A text in quotes as the format writes it. Control characters become spaces.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for character in text.chars() {
-        match character {
-            '"' | '\\' => quoted.extend(['\\', character]),
-            other if other.is_control() => quoted.push(' '),
-            other => quoted.push(other),
-        }
-    }
-    quoted + "\""
 }
 
 /// A stage that is being written.

@@ -94,7 +94,7 @@ impl<W: Write + Seek> MeshWriter<W> for CompressedGlbWriter<W> {
             self.columns.into_iter().map(CompressedColumn::finish).collect::<Result<Vec<_>, _>>()?;
         let pattern = self.pattern.iter().map(Spool::len).sum();
         self.document.place(std::iter::once(pattern).chain(columns.iter().map(Spool::len)));
-        begin(&self.document, &mut self.target)?;
+        begin(self.document.gltf(), &mut self.target)?;
         let start = self.target.position();
         for spool in self.pattern.into_iter().chain(columns) {
             spool.write_to(&mut self.target)?;

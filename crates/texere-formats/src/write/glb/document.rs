@@ -6,15 +6,15 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use texere_core::backend::{Chunk, Plan};
-use texere_core::{End, Material, Origin, Vertex};
+use texere_core::{End, Material, Vertex};
 
 use super::form::{VertexForm, index_accessor};
 use super::grid::Grid;
-use super::json::Json;
 use super::schema::{self, Accessor, Asset, Gltf, MetallicRoughness, Node, Primitive, Scene};
 use crate::write::WriteError;
 use crate::write::bounds::widen;
 use crate::write::places::{Places, RingForm};
+use crate::write::yarn_name::yarn_name;
 
 /// A millimetre in metres, glTF's unit.
 const MILLIMETRE: f32 = 0.001;
@@ -117,7 +117,10 @@ impl Document {
     ) -> Self {
         let yarns = plan.layout().yarns();
         let mut meshes: Vec<_> = (yarns.iter().enumerate())
-            .map(|(number, yarn)| schema::Mesh { name: name(number, yarn.origin), primitives: Vec::new() })
+            .map(|(number, yarn)| schema::Mesh {
+                name: yarn_name(number, yarn.origin),
+                primitives: Vec::new(),
+            })
             .zip(0..)
             .collect();
         let (shapes, gaps) = shapes(plan, chunks, ring);
@@ -144,7 +147,7 @@ impl Document {
         let pattern = gaps * sides * 6 + ends * (sides - 2) * 3;
         let (buffer_views, buffers) = form.views(pattern, ring.vertices(plan));
         let gltf = Gltf {
-            asset: Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) },
+            asset: asset(),
             extensions_used: form.extensions(),
             extensions_required: form.extensions(),
             scene: 0,
@@ -179,6 +182,10 @@ impl Document {
             each(&plan.cap_indices(section, end).collect::<Vec<_>>())?;
         }
         Ok(())
+    }
+
+    pub(super) const fn gltf(&self) -> &Gltf {
+        &self.gltf
     }
 
     /// The size of the file's buffer, bytes: of compressed buffer views before they have [places]
@@ -221,37 +228,17 @@ impl Document {
             }
         }
     }
-
-    /// The document as text. Its length is a multiple of four, and does not depend on the bounds.
-    pub(super) fn to_json(&self) -> String {
-        let mut text = String::new();
-        self.gltf.write(&mut text);
-        let padding = text.len().next_multiple_of(4) - text.len();
-        text.extend(std::iter::repeat_n(' ', padding));
-        text
-    }
 }
 
-/// The name of a yarn by its origin. Names need not be unique. A yarn of unknown origin is named
-/// after its number, counted from 1.
-fn name(number: usize, origin: Origin) -> String {
-    match origin {
-        Origin::Unknown => format!("yarn {}", number + 1),
-        known => known.to_string(),
-    }
+/// The version of glTF, and the program that wrote the file.
+pub(super) const fn asset() -> Asset {
+    Asset { version: "2.0", generator: concat!("texere ", env!("CARGO_PKG_VERSION")) }
 }
 
 /// A node for each mesh, under a node that turns millimetres into metres. `meshes` come with the
 /// numbers of their yarns. With `grids`, the node of a mesh also turns steps of its yarn's grid
 /// into millimetres.
 fn nodes(meshes: &[(schema::Mesh, usize)], grids: Option<&[Grid]>) -> Vec<Node> {
-    let root = Node {
-        name: "fabric".into(),
-        mesh: None,
-        translation: None,
-        scale: Some([MILLIMETRE; 3]),
-        children: (1..=meshes.len()).collect(),
-    };
     let yarns = meshes.iter().enumerate().map(|(mesh, (of_yarn, yarn))| {
         let grid = grids.and_then(|grids| grids.get(*yarn));
         Node {
@@ -259,13 +246,21 @@ fn nodes(meshes: &[(schema::Mesh, usize)], grids: Option<&[Grid]>) -> Vec<Node> 
             mesh: Some(mesh),
             translation: grid.map(|grid| grid.middle),
             scale: grid.map(|grid| [grid.step; 3]),
-            children: Vec::new(),
+            ..Node::default()
         }
     });
-    std::iter::once(root).chain(yarns).collect()
+    std::iter::once(root(meshes.len())).chain(yarns).collect()
 }
 
-fn surface(material: &Material) -> schema::Material {
+/// The first node: it turns millimetres into metres. The `children` nodes that follow it are under
+/// it.
+pub(super) fn root(children: usize) -> Node {
+    let scale = Some([MILLIMETRE; 3]);
+    Node { name: "fabric".into(), scale, children: (1..=children).collect(), ..Node::default() }
+}
+
+/// The material of yarns.
+pub(super) fn surface(material: &Material) -> schema::Material {
     let [red, green, blue] = material.linear_rgb();
     schema::Material {
         name: material.name.clone(),

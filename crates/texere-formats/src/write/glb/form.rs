@@ -113,7 +113,7 @@ impl VertexForm {
             byte_offset: 0,
             byte_length: indices * INDEX_BYTES,
             byte_stride: None,
-            target: ELEMENT_ARRAY_BUFFER,
+            target: Some(ELEMENT_ARRAY_BUFFER),
             extensions: self.compression("TRIANGLES", INDEX_BYTES, indices, None),
         }];
         let mut end = views[0].byte_length;
@@ -123,7 +123,7 @@ impl VertexForm {
                 byte_offset: end,
                 byte_length: vertices * column.bytes,
                 byte_stride: Some(column.bytes),
-                target: ARRAY_BUFFER,
+                target: Some(ARRAY_BUFFER),
                 extensions: self.compression("ATTRIBUTES", column.bytes, vertices, column.filter),
             });
             end += vertices * column.bytes;

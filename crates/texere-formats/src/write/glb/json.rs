@@ -14,8 +14,9 @@ pub(super) trait Json {
 
 /// Declares structures that are written as objects, with a key for each field.
 macro_rules! objects {
-    ($($object:ident { $($key:literal $field:ident: $kind:ty,)* })*) => {$(
+    ($($(#[$about:meta])* $object:ident { $($key:literal $field:ident: $kind:ty,)* })*) => {$(
         #[derive(Debug)]
+        $(#[$about])*
         pub(super) struct $object { $(pub(super) $field: $kind,)* }
 
         impl Json for $object {

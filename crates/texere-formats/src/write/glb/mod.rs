@@ -7,8 +7,11 @@ mod compressed;
 mod document;
 mod form;
 mod grid;
+mod instanced;
+mod instanced_document;
 mod json;
 mod meshopt;
+mod parts;
 mod schema;
 mod start;
 
@@ -20,7 +23,8 @@ pub(super) use compressed::CompressedGlbWriter;
 use document::Document;
 use form::VertexForm;
 use grid::{Grid, stepped};
-use start::{DOCUMENT_AT, Start, begin};
+pub(super) use instanced::InstancedGlbWriter;
+use start::{DOCUMENT_AT, Start, begin, text};
 use texere_core::Material;
 use texere_core::backend::{Chunk, Plan};
 
@@ -61,7 +65,7 @@ impl<W: Write + Seek> GlbWriter<W> {
         bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
         let Start { document, form, corners, grids } = Start::new(plan, chunks, materials, form, bounds)?;
-        begin(&document, &mut target)?;
+        begin(document.gltf(), &mut target)?;
         document.pattern(plan, |corners| target.write_words(corners))?;
         let vertices_at = target.position();
         Ok(Self { target, document, vertices_at, form, corners, grids })
@@ -94,7 +98,7 @@ impl<W: Write + Seek> MeshWriter<W> for GlbWriter<W> {
 
     fn finish(mut self: Box<Self>) -> Result<Target<W>, WriteError> {
         self.target.go_to(DOCUMENT_AT)?;
-        self.target.write(self.document.to_json().as_bytes())?;
+        self.target.write(text(self.document.gltf()).as_bytes())?;
         Ok(self.target)
     }
 }

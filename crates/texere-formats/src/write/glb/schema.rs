@@ -40,12 +40,22 @@ objects! {
         "nodes" nodes: [usize; 1],
     }
 
+    #[derive(Default)]
     Node {
         "name" name: String,
         "mesh" mesh: Option<usize>,
         "translation" translation: Option<[f32; 3]>,
         "scale" scale: Option<[f32; 3]>,
         "children" children: Vec<usize>,
+        "extensions" extensions: Option<NodeExtensions>,
+    }
+
+    NodeExtensions {
+        "EXT_mesh_gpu_instancing" instancing: Instancing,
+    }
+
+    Instancing {
+        "attributes" attributes: Attributes,
     }
 
     Mesh {
@@ -86,7 +96,7 @@ objects! {
         "byteOffset" byte_offset: u64,
         "byteLength" byte_length: u64,
         "byteStride" byte_stride: Option<u64>,
-        "target" target: u32,
+        "target" target: Option<u32>,
         "extensions" extensions: Option<ViewExtensions>,
     }
 
@@ -118,7 +128,7 @@ objects! {
     }
 }
 
-/// The accessors of a primitive's vertices by what they hold.
+/// The accessors of a primitive's vertices, or of a node's instances, by what they hold.
 #[derive(Debug)]
 pub(super) struct Attributes(pub(super) Vec<(&'static str, usize)>);
 

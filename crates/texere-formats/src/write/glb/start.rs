@@ -1,4 +1,4 @@
-//! What both kinds of GLB files begin with: the header and the document, up to the buffer.
+//! What all kinds of GLB files begin with: the header and the document, up to the buffer.
 
 use std::borrow::Borrow;
 use std::io::Write;
@@ -9,6 +9,8 @@ use texere_core::backend::{Chunk, Plan};
 use super::document::Document;
 use super::form::VertexForm;
 use super::grid::Grid;
+use super::json::Json;
+use super::schema::Gltf;
 use crate::write::WriteError;
 use crate::write::bounds::Bounds;
 use crate::write::corners::Corners;
@@ -61,16 +63,25 @@ impl Start {
 /// Writes everything that comes before the buffer.
 ///
 /// **Errors**: [`WriteError::GlbTooLarge`] before a byte is written.
-pub(super) fn begin<W: Write>(document: &Document, target: &mut Target<W>) -> Result<(), WriteError> {
-    let json = document.to_json();
-    let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + document.buffer_bytes();
+pub(super) fn begin<W: Write>(gltf: &Gltf, target: &mut Target<W>) -> Result<(), WriteError> {
+    let (json, buffer_bytes) = (text(gltf), gltf.buffers[0].byte_length);
+    let bytes = HEADER_BYTES + 2 * CHUNK_HEADER_BYTES + json.len() as u64 + buffer_bytes;
     check(bytes)?;
     target.write(b"glTF")?;
     target.write_words(&[2, bytes as u32, json.len() as u32])?;
     target.write(b"JSON")?;
     target.write(json.as_bytes())?;
-    target.write_words(&[document.buffer_bytes() as u32])?;
+    target.write_words(&[buffer_bytes as u32])?;
     target.write(b"BIN\0")
+}
+
+/// The document as text. Its length is a multiple of four, and does not depend on its floats.
+pub(super) fn text(gltf: &Gltf) -> String {
+    let mut text = String::new();
+    gltf.write(&mut text);
+    let padding = text.len().next_multiple_of(4) - text.len();
+    text.extend(std::iter::repeat_n(' ', padding));
+    text
 }
 
 fn check(bytes: u64) -> Result<(), WriteError> {

@@ -278,6 +278,18 @@
 // made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
 #define TEXERE_FORMAT_PACKED_GLB 4
 
+// A packed glTF file that is compressed to about half of its bytes, as the extension
+// EXT_meshopt_compression says.
+#define TEXERE_FORMAT_COMPRESSED_GLB 5
+
+// glTF 2.0 in one binary file that holds each part of a yarn once, however often it recurs, as the
+// extension EXT_mesh_gpu_instancing says. The mesh is made twice. Cloth whose different parts take
+// more than 256 MiB is refused with TEXERE_UNSUPPORTED.
+#define TEXERE_FORMAT_INSTANCED_GLB 6
+
+// The text form of Universal Scene Description, `.usda`: a mesh for each yarn.
+#define TEXERE_FORMAT_USDA 7
+
 // texere's own form of yarns, `.yarns`.
 #define TEXERE_YARNS_FORMAT_YARNS 0
 
@@ -1379,8 +1391,8 @@ enum texere_status texere_cloth_yarns(const struct texere_cloth *cloth, struct t
 // Frees a cloth. A null handle is allowed.
 void texere_cloth_free(struct texere_cloth *cloth);
 
-// Reads a design from a file: a WIF draft (`.wif`), a design file (`.toml`) or a program of a
-// knitting machine (`.k`).
+// Reads a design from a file: a draft of WIF (`.wif`), Fiberworks (`.dtx`) or WeavePoint (`.wpo`),
+// a design file (`.toml`) or a program of a knitting machine (`.k`).
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no valid
 // design; `texere_error_place` then says where the file is at fault.
@@ -2054,9 +2066,9 @@ enum texere_status texere_design_weft_knit(const struct texere_weft_knit *knit,
 enum texere_status texere_design_woven(const struct texere_woven *woven,
                                        struct texere_design **out);
 
-// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
-// memory. `run` may be null. An existing file of that name is replaced only once the new one is
-// complete.
+// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl`, `.obj` or `.usda`, in
+// bounded memory. `run` may be null. An existing file of that name is replaced only once the new
+// one is complete.
 //
 // Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
 // large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
@@ -2066,7 +2078,8 @@ enum texere_status texere_plan_write(const struct texere_plan *plan,
                                      size_t path_length);
 
 // Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-// bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+// bytes that `texere_plan_write` writes, or those of a packed, a compressed or an instanced file.
+// `format` is a constant whose
 // name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
 // `user` as its first argument.
 //
@@ -2105,9 +2118,9 @@ enum texere_status texere_yarns_read_memory(const char *name,
 
 // Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
 // polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-// `.usd`. `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns.
-// With 0 for either, the file says it: `.usda` says both. The unit of other files is then 1 mm,
-// and `diameter_mm` has to be given.
+// `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
+// unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
+// and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
 // lacks the diameter.

@@ -30,6 +30,12 @@ namespace Texere
         Obj = 3,
         /// <summary>glTF 2.0 with vertices of 12 bytes; texere.h says how exact they are.</summary>
         PackedGlb = 4,
+        /// <summary>A packed glTF file, compressed to about half of its bytes.</summary>
+        CompressedGlb = 5,
+        /// <summary>glTF 2.0 that holds each part of a yarn once, however often it recurs.</summary>
+        InstancedGlb = 6,
+        /// <summary>The text form of Universal Scene Description: a mesh for each yarn.</summary>
+        Usda = 7,
     }
 
     /// <summary>The forms of yarns in a file.</summary>

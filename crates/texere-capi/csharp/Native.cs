@@ -348,6 +348,21 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_FORMAT_PACKED_GLB = 4;
         /// <summary>
+        ///  A packed glTF file that is compressed to about half of its bytes, as the extension
+        ///  EXT_meshopt_compression says.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_COMPRESSED_GLB = 5;
+        /// <summary>
+        ///  glTF 2.0 in one binary file that holds each part of a yarn once, however often it recurs, as the
+        ///  extension EXT_mesh_gpu_instancing says. The mesh is made twice. Cloth whose different parts take
+        ///  more than 256 MiB is refused with TEXERE_UNSUPPORTED.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_INSTANCED_GLB = 6;
+        /// <summary>
+        ///  The text form of Universal Scene Description, `.usda`: a mesh for each yarn.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_USDA = 7;
+        /// <summary>
         ///  texere's own form of yarns, `.yarns`.
         /// </summary>
         internal const uint TEXERE_YARNS_FORMAT_YARNS = 0;
@@ -1282,9 +1297,9 @@ namespace Texere
         internal static extern texere_status texere_design_woven(texere_woven* woven, texere_design** @out);
 
         /// <summary>
-        ///  Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
-        ///  memory. `run` may be null. An existing file of that name is replaced only once the new one is
-        ///  complete.
+        ///  Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl`, `.obj` or `.usda`, in
+        ///  bounded memory. `run` may be null. An existing file of that name is replaced only once the new
+        ///  one is complete.
         ///
         ///  Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
         ///  large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
@@ -1294,7 +1309,8 @@ namespace Texere
 
         /// <summary>
         ///  Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-        ///  bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+        ///  bytes that `texere_plan_write` writes, or those of a packed, a compressed or an instanced file.
+        ///  `format` is a constant whose
         ///  name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
         ///  `user` as its first argument.
         ///

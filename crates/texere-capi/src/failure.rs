@@ -172,6 +172,7 @@ fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
             | WriteError::Unheld { .. }
             | WriteError::GlbTooLarge { .. }
             | WriteError::TooLongToPack { .. }
+            | WriteError::TooFewRepeats { .. }
             | WriteError::TooManyVertices { .. }
             | WriteError::TooManyFacets { .. } => Some(TEXERE_UNSUPPORTED),
             WriteError::Pipeline(error) => status_of(error),

@@ -31,6 +31,15 @@ pub const TEXERE_FORMAT_OBJ: u32 = 3;
 /// largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
 /// made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
 pub const TEXERE_FORMAT_PACKED_GLB: u32 = 4;
+/// A packed glTF file that is compressed to about half of its bytes, as the extension
+/// EXT_meshopt_compression says.
+pub const TEXERE_FORMAT_COMPRESSED_GLB: u32 = 5;
+/// glTF 2.0 in one binary file that holds each part of a yarn once, however often it recurs, as the
+/// extension EXT_mesh_gpu_instancing says. The mesh is made twice. Cloth whose different parts take
+/// more than 256 MiB is refused with TEXERE_UNSUPPORTED.
+pub const TEXERE_FORMAT_INSTANCED_GLB: u32 = 6;
+/// The text form of Universal Scene Description, `.usda`: a mesh for each yarn.
+pub const TEXERE_FORMAT_USDA: u32 = 7;
 
 /// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
 /// 100 MB a second takes a chunk and its triangles in 50 ms.
@@ -44,9 +53,9 @@ impl Planned {
     }
 }
 
-/// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl` or `.obj`, in bounded
-/// memory. `run` may be null. An existing file of that name is replaced only once the new one is
-/// complete.
+/// Makes the mesh of a plan and writes it to a file, `.glb`, `.ply`, `.stl`, `.obj` or `.usda`, in
+/// bounded memory. `run` may be null. An existing file of that name is replaced only once the new
+/// one is complete.
 ///
 /// Fails with TEXERE_IO if the file can't be written, with TEXERE_UNSUPPORTED if the mesh is too
 /// large for the format, and with TEXERE_CANCELLED if `run` was cancelled.
@@ -67,7 +76,8 @@ pub unsafe extern "C" fn texere_plan_write(
 }
 
 /// Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
-/// bytes that `texere_plan_write` writes, or those of a packed file. `format` is a constant whose
+/// bytes that `texere_plan_write` writes, or those of a packed, a compressed or an instanced file.
+/// `format` is a constant whose
 /// name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
 /// `user` as its first argument.
 ///
@@ -85,7 +95,16 @@ pub unsafe extern "C" fn texere_plan_write_to(
     guard(|| {
         // SAFETY: the caller vouches for the callback.
         let file = unsafe { CallbackFile::new(callback, user) }?;
-        let formats = [Format::Glb, Format::Ply, Format::Stl, Format::Obj, Format::PackedGlb];
+        let formats = [
+            Format::Glb,
+            Format::Ply,
+            Format::Stl,
+            Format::Obj,
+            Format::PackedGlb,
+            Format::CompressedGlb,
+            Format::InstancedGlb,
+            Format::Usda,
+        ];
         let format = choice("format", format, &formats)?;
         let (plan, run) = (get(plan)?, get_any(run)?);
         texere::write::run_to(plan.writing(run)?, plan.yarns.materials(), format, file)?;

@@ -5,7 +5,7 @@ use std::ops::Deref;
 use std::path::Path;
 
 use texere::check::{SettlingReport, counted};
-use texere::write::Output;
+use texere::write::{Format, Output};
 use texere::{Backend, BackendError, Pipeline, Yarns};
 
 use crate::args::{MeshArgs, is_curves, is_yarns, undersampled};
@@ -15,8 +15,9 @@ use crate::{drivers, print, progress, reading, settling};
 
 pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
     let open = || drivers::quietly(|| texere::open(&args.device));
-    if is_yarns(&args.output) || is_curves(&args.output) {
+    if is_yarns(&args.output) || holds_curves(args) {
         let own = [
+            ("--triangles", args.triangles),
             ("--packed", args.packed),
             ("--compressed", args.compressed),
             ("--instanced", args.instanced),
@@ -71,6 +72,11 @@ impl Cloth {
     }
 }
 
+/// Whether the file to write holds curves.
+fn holds_curves(args: &MeshArgs) -> bool {
+    is_curves(&args.output) && !(args.triangles && Format::from_path(&args.output).is_ok())
+}
+
 /// The file to write, which replaces none of `files`.
 fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) -> Output {
     let output = Output::to(&args.output).sparing(files).attributes(args.attributes.iter().copied());
@@ -85,7 +91,7 @@ fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) ->
 
 /// Writes the yarns themselves, or their centrelines. Returns the line to print about the file.
 fn saved(args: &MeshArgs, yarns: &Yarns, output: Output) -> Result<String, Fail> {
-    let bytes = match is_curves(&args.output) {
+    let bytes = match holds_curves(args) {
         true => texere::write::curves(yarns, output)?,
         false => texere::write::yarns(yarns, output)?,
     };

@@ -160,7 +160,8 @@ impl Cloth {
     /// for readers that know the extension ``EXT_meshopt_compression``. ``instanced`` and
     /// ``attributes`` are those of :meth:`Mesh.write`.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
-    /// mass, for simulators that read no other curves.
+    /// mass, for simulators that read no other curves. ``triangles`` writes a ``.usda`` of meshes,
+    /// one for each yarn, instead of curves.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "plain.glb"
@@ -170,7 +171,7 @@ impl Cloth {
     /// be written, packed, compressed or instanced or can't hold the attributes; ValueError for one
     /// that is to be several of packed, compressed, instanced and linear, and for an unknown
     /// attribute.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new(), linear=false, device="auto"))]
+    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new(), linear=false, triangles=false, device="auto"))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn write(
         &self,
@@ -181,6 +182,7 @@ impl Cloth {
         instanced: bool,
         attributes: Vec<String>,
         linear: bool,
+        triangles: bool,
         device: &str,
     ) -> PyResult<()> {
         let yarns = self.cloth.yarns();
@@ -188,7 +190,7 @@ impl Cloth {
             .attributes(mesh::named(&attributes)?)
             .sparing(self.cloth.design().files());
         output.check().raise(py)?;
-        if !yarns::is_mesh(&path)? {
+        if !yarns::is_mesh(&path, triangles)? {
             return watch::quietly(py, |_| yarns::write(yarns, output));
         }
         let device = watch::quietly(py, |_| device::open(device))?;

@@ -195,16 +195,16 @@ impl Mesh {
         size_of_val(&self.mesh.vertices[..]) + size_of_val(&self.mesh.indices[..])
     }
 
-    /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl`` or ``.obj`` file, which appears whole or
-    /// not at all. It is made again while it is written, piece by piece. ``packed`` halves the
-    /// vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
+    /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl``, ``.obj`` or ``.usda`` file, which appears
+    /// whole or not at all. It is made again while it is written, piece by piece. ``packed`` halves
+    /// the vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
     /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
     /// half of that, for readers that know the extension ``EXT_meshopt_compression``. ``instanced``
     /// writes a ``.glb`` that holds each part of a yarn once, as long as 16 control points or a
     /// cap, for readers that know ``EXT_mesh_gpu_instancing``.
-    /// ``attributes`` are further numbers of the vertices of a ``.glb`` or a ``.ply``: of ``uv``,
-    /// the share of a turn round the yarn and the mm along it; ``tangent``, the direction along the
-    /// yarn; ``yarn``, the yarn's number.
+    /// ``attributes`` are further numbers of the vertices of a ``.glb``, a ``.ply`` or a ``.usda``:
+    /// of ``uv``, the share of a turn round the yarn and the mm along it; ``tangent``, the
+    /// direction along the yarn; ``yarn``, the yarn's number.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"

@@ -92,13 +92,18 @@ pub(crate) fn read_curves(
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::curves(path, scale))?))
 }
 
-/// Whether the ending of a path is that of a mesh, and not that of yarns or curves.
+/// Whether the ending of a path is that of a mesh, and not that of yarns or curves. One that stands
+/// for both is that of a mesh if `triangles` are asked for.
 ///
-/// **Errors**: [`Error`] for an ending of none of them.
-pub(crate) fn is_mesh(path: &Path) -> PyResult<bool> {
+/// **Errors**: [`Error`] for an ending of none of them, and for triangles in a file of no mesh.
+pub(crate) fn is_mesh(path: &Path, triangles: bool) -> PyResult<bool> {
+    let is_curves = CurveFormat::from_path(path).is_ok();
     match Format::from_path(path) {
-        Ok(_) => Ok(true),
-        Err(_) if is_saved(path) || CurveFormat::from_path(path).is_ok() => Ok(false),
+        Ok(_) => Ok(triangles || !is_curves),
+        Err(_) if triangles && (is_saved(path) || is_curves) => {
+            Err(Error::new_err(format!("{} holds no triangles", path.display())))
+        }
+        Err(_) if is_saved(path) || is_curves => Ok(false),
         Err(error) => {
             let curves = CurveFormat::ALL.map(CurveFormat::extension).join(", ");
             Err(Error::new_err(format!("{error}; and without a mesh: {curves}, yarns")))

@@ -125,7 +125,7 @@ def drawn(yarns):
     )
 
 
-@pytest.mark.parametrize("design", ["two-ply", "jersey", "tartan"])
+@pytest.mark.parametrize("design", DESIGNS)
 @pytest.mark.parametrize("caps", [False, True])
 def test_instanced_files_are_valid_and_draw_what_plain_ones_draw(tmp_path, opened, design, caps):
     mesh = texere.read(f"designs/{design}.toml").placed().mesh(sides=6, caps=caps, device="cpu")

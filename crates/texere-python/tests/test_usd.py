@@ -162,3 +162,57 @@ def test_yarns_come_back(tmp_path, design):
     Usd.Stage.Open(str(tmp_path / "own.usda")).Export(str(tmp_path / "cloth.usdc"))
     with pytest.raises(texere.Error, match="the text form"):
         texere.read_curves(tmp_path / "cloth.usdc")
+
+
+@pytest.mark.parametrize("design", ["two-ply", "jersey", "locknit"])
+@pytest.mark.parametrize("caps", [False, True])
+def test_a_stage_of_meshes_holds_our_triangles(tmp_path, design, caps):
+    mesh = texere.read(f"designs/{design}.toml").placed().mesh(sides=6, caps=caps, device="cpu")
+    path = tmp_path / "mesh.usda"
+    mesh.write(path)
+    stage = Usd.Stage.Open(str(path))
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 0.001
+    assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
+    theirs = []
+    for number, prim in enumerate(prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)):
+        yarn = UsdGeom.Mesh(prim)
+        counts = numpy.array(yarn.GetFaceVertexCountsAttr().Get())
+        corners = numpy.array(yarn.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)
+        assert (counts == 3).all() and len(counts) == len(corners)
+        assert UsdGeom.Mesh.ValidateTopology(corners.ravel().tolist(), counts.tolist(), int(corners.max()) + 1)[0]
+        points, normals = (numpy.array(each.Get()) for each in (yarn.GetPointsAttr(), yarn.GetNormalsAttr()))
+        assert yarn.GetNormalsInterpolation() == UsdGeom.Tokens.vertex
+        assert yarn.GetSubdivisionSchemeAttr().Get() == UsdGeom.Tokens.none
+        assert len(yarn.GetDisplayColorAttr().Get()) == 1
+        assert numpy.array_equal(yarn.GetExtentAttr().Get(), UsdGeom.PointBased.ComputeExtent(yarn.GetPointsAttr().Get()))
+        assert prim.GetAttribute("primvars:yarn").Get() == number
+        theirs.append(numpy.concatenate([points, normals], axis=1)[corners].reshape(-1, 18))
+    theirs = numpy.concatenate(theirs)
+    ours = numpy.concatenate([mesh.positions, mesh.normals], axis=1)[mesh.indices].reshape(-1, 18)
+    ours, theirs = (rows[numpy.lexsort(rows.T)] for rows in (ours, theirs))
+    assert numpy.array_equal(ours, theirs)
+
+
+def test_a_stage_holds_meshes_or_curves(tmp_path):
+    cloth = texere.read("designs/plain.toml").placed()
+    cloth.write(tmp_path / "curves.usda", device="cpu")
+    cloth.write(tmp_path / "mesh.usda", triangles=True, attributes=["uv", "tangent", "yarn"], device="cpu")
+    curves, meshes = (Usd.Stage.Open(str(tmp_path / name)) for name in ("curves.usda", "mesh.usda"))
+    kinds = [{prim.GetTypeName() for prim in stage.Traverse()} for stage in (curves, meshes)]
+    assert kinds == [{"Xform", "BasisCurves"}, {"Xform", "Mesh"}]
+    for prim in meshes.Traverse():
+        if not prim.IsA(UsdGeom.Mesh):
+            continue
+        primvars = UsdGeom.PrimvarsAPI(prim)
+        vertices = len(UsdGeom.Mesh(prim).GetPointsAttr().Get())
+        for name in ("st", "tangents"):
+            primvar = primvars.GetPrimvar(name)
+            assert primvar.GetInterpolation() == UsdGeom.Tokens.vertex and len(primvar.Get()) == vertices
+        turns = numpy.array(primvars.GetPrimvar("st").Get())[:, 0]
+        assert turns.min() == 0.0 and turns.max() == 1.0
+    for name in ("cloth.bcc", "cloth.yarns"):
+        with pytest.raises(texere.Error, match="holds no triangles"):
+            cloth.write(tmp_path / name, triangles=True, device="cpu")
+    with pytest.raises(texere.Error, match="straight lines"):
+        cloth.write(tmp_path / "both.usda", triangles=True, linear=True, device="cpu")
+    assert len(list(tmp_path.iterdir())) == 2

@@ -63,6 +63,9 @@ static unsafe class Classes
         Check((uint)MeshFormat.Stl == Native.TEXERE_FORMAT_STL, "MeshFormat");
         Check((uint)MeshFormat.Obj == Native.TEXERE_FORMAT_OBJ, "MeshFormat");
         Check((uint)MeshFormat.PackedGlb == Native.TEXERE_FORMAT_PACKED_GLB, "MeshFormat");
+        Check((uint)MeshFormat.CompressedGlb == Native.TEXERE_FORMAT_COMPRESSED_GLB, "MeshFormat");
+        Check((uint)MeshFormat.InstancedGlb == Native.TEXERE_FORMAT_INSTANCED_GLB, "MeshFormat");
+        Check((uint)MeshFormat.Usda == Native.TEXERE_FORMAT_USDA, "MeshFormat");
         Check((uint)YarnsFormat.Usda == Native.TEXERE_YARNS_FORMAT_USDA, "YarnsFormat");
         Check((uint)YarnsFormat.LinearUsda == Native.TEXERE_YARNS_FORMAT_LINEAR_USDA, "YarnsFormat");
         using (var design = Design.Read("plain.toml", Encoding.UTF8.GetBytes(Plain)))

@@ -120,9 +120,9 @@ pub(crate) struct MeshArgs {
     /// file of saved cloth, or a .bcc, .obj, .usda or .tg3 file of curves that another program
     /// wrote
     pub(crate) design: PathBuf,
-    /// The file to write: .glb, .ply, .stl or .obj for a mesh; .bcc or .usda for the yarns'
-    /// centrelines, as curves for other programs; .yarns saves the cloth at rest, which need not
-    /// settle again
+    /// The file to write: .glb, .ply, .stl or .obj for a mesh, .usda with --triangles; .bcc or
+    /// .usda for the yarns' centrelines, as curves for other programs; .yarns saves the cloth at
+    /// rest, which need not settle again
     #[arg(short, long, value_name = "FILE", value_parser = mesh_file())]
     pub(crate) output: PathBuf,
     /// The device that does the work: a name that `texere devices` lists, or auto, cpu, opencl,
@@ -143,15 +143,19 @@ pub(crate) struct MeshArgs {
     /// don't know the extension refuse the file
     #[arg(long, conflicts_with_all = ["packed", "compressed", "attributes"])]
     pub(crate) instanced: bool,
-    /// Give the vertices of a .glb or a .ply attributes, with commas between: uv is the share of a
-    /// turn round the yarn and the mm along it, tangent the direction along the yarn, yarn the
-    /// yarn's number, counted from 0. An .obj holds uv alone, which it always has
+    /// Give the vertices of a .glb, a .ply or a .usda mesh attributes, with commas between: uv is
+    /// the share of a turn round the yarn and the mm along it, tangent the direction along the
+    /// yarn, yarn the yarn's number, counted from 0. An .obj holds uv alone, which it always has
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = vertex_attribute())]
     pub(crate) attributes: Vec<VertexAttribute>,
     /// Write the curves of a .usda file as straight lines between control points, with thickness
     /// and mass, for simulators that read no other curves
-    #[arg(long, conflicts_with_all = ["packed", "compressed", "instanced"])]
+    #[arg(long, conflicts_with_all = ["packed", "compressed", "instanced", "triangles"])]
     pub(crate) linear: bool,
+    /// Write triangles into a .usda file, a mesh for each yarn, instead of curves. Other files of
+    /// meshes always hold triangles
+    #[arg(long)]
+    pub(crate) triangles: bool,
     #[command(flatten)]
     pub(crate) curves: CurveArgs,
     #[command(flatten)]

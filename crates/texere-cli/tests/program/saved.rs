@@ -89,7 +89,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
     fs::write(&broken, &bytes[..bytes.len() - 1]).unwrap();
     let (ply, other) = (path("cloth.ply"), path("other.yarns"));
     let alone = "holds saved yarns alone";
-    let cases: [(&[&str], i32, &str); 28] = [
+    let cases: [(&[&str], i32, &str); 31] = [
         (&["inspect", &saved, "--diameter", "1"], 2, "--diameter is for files of curves"),
         (&["check", &saved, "--unit", "1"], 2, "--unit is for files of curves"),
         (&["draft", &saved, "--text"], 3, alone),
@@ -100,6 +100,9 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
             "--settling-plot needs --settle",
         ),
         (&["mesh", &saved, "-o", &ply, "--section", "ellipse:0"], 2, "invalid value"),
+        (&["mesh", &saved, "-o", &other, "--triangles"], 2, "--triangles needs a mesh"),
+        (&["mesh", &saved, "-o", &path("cloth.bcc"), "--triangles"], 2, "--triangles needs a mesh"),
+        (&["mesh", &saved, "-o", &path("cloth.usda"), "--triangles", "--packed"], 2, "does not end in .glb"),
         (&["mesh", &saved, "-o", &other, "--caps"], 2, "--caps needs a mesh"),
         (&["mesh", &saved, "-o", &other, "--packed"], 2, "--packed needs a mesh"),
         (&["mesh", &design, "-o", &ply, "--packed"], 2, "does not end in .glb"),
@@ -132,7 +135,7 @@ fn what_takes_a_design_says_so_of_a_saved_cloth() {
         (
             &["mesh", &design, "-o", &path("cloth.fbx")],
             2,
-            "there are: glb, ply, stl, obj; and without a mesh: bcc, usda, yarns",
+            "there are: glb, ply, stl, obj, usda; and without a mesh: bcc, usda, yarns",
         ),
     ];
     for (args, code, said) in cases {

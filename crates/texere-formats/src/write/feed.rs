@@ -7,7 +7,6 @@ use std::io::{Seek, Write};
 use texere_core::backend::{Chunk, Plan};
 use texere_core::{Material, Vertex};
 
-#[cfg(any(feature = "glb", feature = "obj", feature = "ply", feature = "stl"))]
 use super::Format;
 use super::WriteError;
 use super::bounds::Bounds;
@@ -23,6 +22,7 @@ use super::ply::PlyWriter;
 #[cfg(feature = "stl")]
 use super::stl::StlWriter;
 use super::target::Target;
+use super::usd_mesh::UsdMeshWriter;
 
 /// Starts a file of `form`.
 fn writer<'a, W: Write + Seek + 'a>(
@@ -55,6 +55,7 @@ fn writer<'a, W: Write + Seek + 'a>(
             let library = library_name(target.path());
             Ok(Box::new(ObjWriter::start(target, plan, chunks, materials, &library)?))
         }
+        Format::Usda => Ok(Box::new(UsdMeshWriter::start(target, plan, chunks, materials, form)?)),
         #[cfg(not(all(feature = "glb", feature = "ply", feature = "stl", feature = "obj")))]
         format => Err(WriteError::Feature { format: format.extension(), feature: format.extension() }),
     }

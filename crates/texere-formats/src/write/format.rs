@@ -10,7 +10,7 @@ use super::WriteError;
 /// use texere_formats::write::Format;
 /// assert_eq!(Format::from_path("damask.GLB")?, Format::Glb);
 /// let error = Format::from_path("damask.fbx").unwrap_err();
-/// assert_eq!(error.to_string(), "damask.fbx has no known extension; there are: glb, ply, stl, obj");
+/// assert_eq!(error.to_string(), "damask.fbx has no known extension; there are: glb, ply, stl, obj, usda");
 /// # Ok::<(), texere_formats::WriteError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -54,11 +54,15 @@ pub enum Format {
     Stl,
     /// OBJ, text, with a file of materials (`.mtl`) beside it.
     Obj,
+    /// The text form of Universal Scene Description: a prim for each yarn, of up to 2³¹ - 1
+    /// vertices. Where `.usda` may also stand for the curves of yarns, as on the command line and
+    /// in Python, triangles have to be asked for.
+    Usda,
 }
 
 impl Format {
     /// The formats that an extension stands for.
-    pub const ALL: [Self; 4] = [Self::Glb, Self::Ply, Self::Stl, Self::Obj];
+    pub const ALL: [Self; 5] = [Self::Glb, Self::Ply, Self::Stl, Self::Obj, Self::Usda];
 
     /// The extension of the format's files, without its dot.
     #[must_use]
@@ -68,6 +72,7 @@ impl Format {
             Self::Ply => "ply",
             Self::Stl => "stl",
             Self::Obj => "obj",
+            Self::Usda => "usda",
         }
     }
 

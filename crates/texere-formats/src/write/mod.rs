@@ -6,10 +6,11 @@
 //! | glTF 2.0 binary | `.glb` | `glb` | a node for each yarn, named by its origin, coloured by its material; metres, +Y up, front +Z; [packed](Output::packed) it has half the bytes for a vertex, [compressed](Output::compressed) a third |
 //! | binary PLY, little endian | `.ply` | `ply` | one point set with normals and colours, and its triangles; millimetres |
 //! | binary STL | `.stl` | `stl` | the triangles alone, each with its corners; millimetres |
+//! | USD, the text form | `.usda` | none | a prim for each yarn, named by its origin, with normals and its colour; millimetres |
 //! | OBJ | `.obj` | `obj` | a group for each yarn with normals and texture coordinates, and the yarns' materials in an `.mtl` file beside it; millimetres |
 //!
-//! Vertices of a GLB and of a PLY may have [attributes](Output::attributes): texture coordinates,
-//! tangents, numbers of yarns.
+//! Vertices of a GLB, a PLY and a USD mesh may have [attributes](Output::attributes): texture
+//! coordinates, tangents, numbers of yarns.
 //!
 //! There are also writers of [drafts](fn@draft), [stitch charts](knit_draft), [lapping
 //! diagrams](warp_draft) and [pictures](fn@picture) as PNG, and of designs: woven ones as
@@ -79,8 +80,8 @@ mod target;
 #[cfg(test)]
 mod tests;
 mod unfinished;
+mod usd_mesh;
 mod usda;
-#[cfg(feature = "glb")]
 mod yarn_name;
 mod yarns;
 

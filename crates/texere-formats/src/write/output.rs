@@ -191,7 +191,10 @@ impl Output {
             Form::Packed => Format::PackedGlb,
             Form::Compressed => Format::CompressedGlb,
             Form::Instanced => Format::InstancedGlb,
-            Form::Plain | Form::Linear => Format::from_path(&self.path)?,
+            Form::Plain => Format::from_path(&self.path)?,
+            Form::Linear => {
+                return Err(WriteError::Unheld { format: "a mesh", what: "straight lines".into() });
+            }
         };
         Ok(MeshForm { format, attributes: self.attributes })
     }

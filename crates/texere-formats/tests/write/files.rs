@@ -171,6 +171,9 @@ fn a_mesh_too_large_for_its_format_is_refused_at_once() {
             WriteError::TooManyVertices { format: "OBJ", vertices: told, limit } => {
                 (told, limit) == (vertices / 64 * 65, 2_147_483_647)
             }
+            WriteError::TooManyVertices { format: "a yarn in USD", vertices: told, limit } => {
+                (told, limit) == (vertices, 2_147_483_647)
+            }
             WriteError::TooManyFacets { facets, limit } => {
                 (facets, limit) == (99_999 * 1_000 * 128, 4_294_967_295)
             }

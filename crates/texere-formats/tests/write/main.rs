@@ -21,4 +21,5 @@ mod random_designs;
 mod random_knits;
 mod stl;
 mod unpack;
+mod usd_mesh;
 mod writers;

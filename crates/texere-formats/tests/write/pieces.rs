@@ -10,7 +10,7 @@ use texere_formats::write::{self, Format, Output, VertexAttribute};
 
 use crate::fabric::{fabric, long_yarn, pipeline, region, triangles, ways, whole};
 use crate::unpack::unpack;
-use crate::{obj, stl};
+use crate::{obj, stl, usd_mesh};
 
 /// Union-find: sets are joined when two of their members are.
 struct Pieces {
@@ -120,9 +120,22 @@ fn of_obj(bytes: &[u8]) -> usize {
     Pieces::of(file.positions.len(), corners).count()
 }
 
+/// Number of pieces in a USD stage. Prims have vertices of their own.
+fn of_usda(bytes: &[u8]) -> usize {
+    let prims = usd_mesh::prims(std::str::from_utf8(bytes).unwrap());
+    prims.values().map(|prim| Pieces::of(prim.vertices(), prim.corners()).count()).sum()
+}
+
 /// The formats in which a yarn is one piece.
-const WHOLE: [Format; 6] =
-    [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply, Format::Stl, Format::Obj];
+const WHOLE: [Format; 7] = [
+    Format::Glb,
+    Format::PackedGlb,
+    Format::CompressedGlb,
+    Format::Ply,
+    Format::Stl,
+    Format::Obj,
+    Format::Usda,
+];
 
 /// Calls `check` with the files of `mesh` and of `stream` in each of the `formats`, without
 /// attributes, and with all of them if the format holds them.
@@ -162,6 +175,7 @@ fn pieces(format: Format, bytes: &[u8]) -> usize {
         Format::Ply => of_ply(bytes),
         Format::Stl => of_stl(bytes),
         Format::Obj => of_obj(bytes),
+        Format::Usda => of_usda(bytes),
         other => panic!("{other:?}"),
     }
 }

@@ -165,8 +165,9 @@ class Cloth:
         packed: bool = False,
         compressed: bool = False,
         instanced: bool = False,
-        attributes: Sequence[_Attribute] = [],
+        attributes: Sequence[_Attribute] = ...,
         linear: bool = False,
+        triangles: bool = False,
         device: str = "auto",
     ) -> None: ...
     def show(self, **options: Any) -> Any: ...
@@ -233,7 +234,7 @@ class Mesh:
         packed: bool = False,
         compressed: bool = False,
         instanced: bool = False,
-        attributes: Sequence[_Attribute] = [],
+        attributes: Sequence[_Attribute] = ...,
     ) -> None: ...
     def to_trimesh(self) -> Any: ...
     def to_pyvista(self) -> Any: ...

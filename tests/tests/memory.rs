@@ -66,8 +66,8 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
     let told = size_of_val(yarns.points()) + 2 * (2 * (8 << 20) + (1 << 20)) + 5000 * 3000;
     let formats =
         Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
-    let with =
-        [Format::Glb, Format::CompressedGlb, Format::Ply].map(|format| format.with(VertexAttribute::ALL));
+    let with = [Format::Glb, Format::CompressedGlb, Format::Ply, Format::Usda]
+        .map(|format| format.with(VertexAttribute::ALL));
     for format in formats.map(MeshForm::from).chain(with) {
         let write = || {
             let pipeline = Pipeline::new(&yarns).sides(10).subdivisions(1).caps(true).limits(limits);

@@ -2079,9 +2079,8 @@ enum texere_status texere_plan_write(const struct texere_plan *plan,
 
 // Makes the mesh of a plan and hands the bytes of a file to `callback`, in bounded memory: the
 // bytes that `texere_plan_write` writes, or those of a packed, a compressed or an instanced file.
-// `format` is a constant whose
-// name begins with TEXERE_FORMAT. `run` may be null. The callback runs on the calling thread, with
-// `user` as its first argument.
+// `format` is a constant whose name begins with TEXERE_FORMAT. `run` may be null. The callback
+// runs on the calling thread, with `user` as its first argument.
 //
 // Fails with TEXERE_UNSUPPORTED if the mesh is too large for the format, and with TEXERE_CANCELLED
 // if `run` was cancelled, or if the callback returned a number other than 0. The bytes that came

@@ -213,6 +213,8 @@ def test_a_stage_holds_meshes_or_curves(tmp_path):
     for name in ("cloth.bcc", "cloth.yarns"):
         with pytest.raises(texere.Error, match="holds no triangles"):
             cloth.write(tmp_path / name, triangles=True, device="cpu")
+    with pytest.raises(texere.Error, match="curves can't hold attributes"):
+        cloth.write(tmp_path / "cloth.usda", attributes=["uv"], device="cpu")
     with pytest.raises(texere.Error, match="straight lines"):
         cloth.write(tmp_path / "both.usda", triangles=True, linear=True, device="cpu")
     assert len(list(tmp_path.iterdir())) == 2

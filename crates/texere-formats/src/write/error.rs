@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use texere_core::{BoundaryError, PipelineError, counted};
 use thiserror::Error;
 
-/// The most vertices of a PLY file, which takes more of them than any other format.
+/// The most vertices of a PLY file.
 const PLY_VERTICES: u64 = u32::MAX as u64;
 
 /// Errors of writers. After an error there is no new file, and an old file at the path is as it
@@ -92,15 +92,15 @@ pub enum WriteError {
     TooFewRepeats {
         /// Number of different parts that came.
         parts: usize,
-        /// The most bytes of vertices of different parts.
+        /// The most bytes of different parts: their vertices, and 2 KiB for each part.
         limit: u64,
     },
-    /// PLY numbers vertices with 32 bits, and programs that read OBJ number them with 31. Fewer
-    /// sides or subdivisions make fewer vertices.
+    /// PLY numbers vertices with 32 bits. Programs that read OBJ number them with 31, and USD
+    /// numbers those of a yarn with 31. Fewer sides or subdivisions make fewer vertices.
     #[error(
         "{format} of {vertices} vertices or more, but the format ends at {limit}; {}use fewer sides or subdivisions",
-        // Only PLY numbers more vertices.
-        if *.limit < PLY_VERTICES && *.vertices <= PLY_VERTICES { "write a PLY file, or " } else { "" }
+        // Other yarns may have too many vertices for PLY.
+        if *.format == "OBJ" && *.vertices <= PLY_VERTICES { "write a PLY file, or " } else { "" }
     )]
     TooManyVertices {
         /// The format.

@@ -44,7 +44,7 @@ fn writer<'a, W: Write + Seek + 'a>(
         }
         #[cfg(feature = "glb")]
         Format::InstancedGlb => {
-            Ok(Box::new(InstancedGlbWriter::start(target, plan, materials, form, bounds)))
+            Ok(Box::new(InstancedGlbWriter::start(target, plan, materials, form, bounds)?))
         }
         #[cfg(feature = "ply")]
         Format::Ply => Ok(Box::new(PlyWriter::start(target, plan, materials, form)?)),
@@ -97,16 +97,23 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         materials: &'a [Material],
         bounds: Option<&Bounds>,
     ) -> Result<Self, WriteError> {
-        let mut planned = 0;
-        let mut chunks = chunks.into_iter().inspect(|chunk| planned += u64::from(chunk.borrow().vertices()));
+        let sides = plan.settings().sides;
+        let (mut planned, mut repeated) = (0, 0);
+        let mut chunks = chunks.into_iter().inspect(|chunk| {
+            let chunk = chunk.borrow();
+            planned += u64::from(chunk.vertices());
+            repeated += u64::from(chunk.repeats_ring()) * u64::from(sides);
+        });
         let writer = writer(form, target, plan, &mut chunks, materials, bounds)?;
         // Chunks that the writer has not gone through count as well.
         chunks.for_each(drop);
-        if planned < plan.counts().vertices {
-            return Err(WriteError::VertexCount { given: planned, planned: plan.counts().vertices });
+        // Chunks of a plan with room have more vertices than the mesh.
+        let given = planned - repeated;
+        if given != plan.counts().vertices {
+            return Err(WriteError::VertexCount { given, planned: plan.counts().vertices });
         }
         let places = Places::new(plan, RingForm::new(plan, form.has_seam()));
-        Ok(Self { writer, places, sides: plan.settings().sides, goes_on: false, given: 0, planned })
+        Ok(Self { writer, places, sides, goes_on: false, given: 0, planned })
     }
 
     /// Passes `vertices` to the writer. They are those of `chunk` from number `first` on.

@@ -19,9 +19,10 @@ use super::{Output, WriteError};
 pub struct Written {
     /// Bytes of the file.
     pub bytes: u64,
-    /// Vertices in the file. A ring that chunks repeat counts once.
+    /// Vertices of the mesh. A ring that chunks repeat counts once. An instanced file draws as many
+    /// and holds fewer.
     pub vertices: u64,
-    /// Triangles in the file.
+    /// Triangles of the mesh, all of which the file draws.
     pub triangles: u64,
 }
 

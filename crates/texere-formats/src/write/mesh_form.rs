@@ -19,7 +19,7 @@ pub enum VertexAttribute {
     /// The unit direction along the yarn on its surface, at right angles to the normal, and the
     /// sign with which the bitangent runs in the direction of the growing turn: -1. On a cap the
     /// direction is that of its growing first texture coordinate, and the bitangent runs in that of
-    /// the second.
+    /// the second. PLY and USD hold no sign.
     Tangent,
     /// The number of the yarn among all yarns of the cloth, counted from 0.
     Yarn,

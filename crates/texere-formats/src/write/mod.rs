@@ -32,6 +32,10 @@
 //! rings that they close. Their positions are equal to the ring's to the bit. All yarns share an
 //! index pattern, which GLB holds only once. This halves the file.
 //!
+//! An [instanced](Output::instanced) GLB is another matter. It has a node for each part of a yarn
+//! that differs from the others, and parts share no vertices. Where two parts meet, or a part and a
+//! cap, they may be some millionths of the cloth's largest coordinate apart.
+//!
 //! A file is written beside its target and renamed when it is complete. An error, a cancellation or
 //! a panic leaves no new file, and an older file of that name stays as it was. A program that
 //! handles a signal calls [`abandon`] before it ends. The next write in a folder removes files that

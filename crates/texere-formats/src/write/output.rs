@@ -155,8 +155,8 @@ impl Output {
         self
     }
 
-    /// Gives vertices of a mesh `attributes`, in a `.glb` or a `.ply` file. Further calls add
-    /// attributes.
+    /// Gives vertices of a mesh `attributes`, in a `.glb`, a `.ply` or a `.usda` file. Further
+    /// calls add attributes.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
@@ -184,7 +184,8 @@ impl Output {
     /// The format of a mesh at this output, and the attributes of its vertices.
     ///
     /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] for an ending that has
-    /// no such form, and [`WriteError::Unheld`] for attributes that the format can't hold.
+    /// no such form, and [`WriteError::Unheld`] for straight lines and for attributes that the
+    /// format can't hold.
     pub(super) fn mesh_form(&self) -> Result<MeshForm, WriteError> {
         self.check_form()?;
         let format = match self.form {
@@ -201,10 +202,16 @@ impl Output {
 
     /// The format of curves at this output.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], also if vertices are to have attributes, and
-    /// [`WriteError::NotEnding`] for an ending that has no such form.
+    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] for an ending that has
+    /// no such form, and [`WriteError::Unheld`] if vertices are to have attributes.
     pub(super) fn curve_format(&self) -> Result<CurveFormat, WriteError> {
         self.check_form()?;
+        if self.attributes.any() {
+            return Err(WriteError::Unheld {
+                format: "a file of curves",
+                what: "attributes of vertices".into(),
+            });
+        }
         match self.form {
             Form::Linear => Ok(CurveFormat::LinearUsda),
             Form::Plain | Form::Packed | Form::Compressed | Form::Instanced => {
@@ -250,10 +257,11 @@ impl Output {
     /// has much to do before it writes. Writers make the check themselves, before they begin and
     /// again before the rename.
     ///
-    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed, compressed or
-    /// linear; [`WriteError::UnknownFormat`] and [`WriteError::Unheld`] for one that can't hold the
-    /// attributes; [`WriteError::Spared`]; and [`WriteError::Io`] if there is no such folder, if
-    /// the path is no file that may be replaced, or if a spared file can't be looked at.
+    /// **Errors**: [`WriteError::NotEnding`] for an ending that can't be packed, compressed,
+    /// instanced or linear; [`WriteError::UnknownFormat`] and [`WriteError::Unheld`] for one that
+    /// can't hold the attributes; [`WriteError::Spared`]; and [`WriteError::Io`] if there is no
+    /// such folder, if the path is no file that may be replaced, or if a spared file can't be
+    /// looked at.
     pub fn check(&self) -> Result<(), WriteError> {
         self.clone().place().map(drop)
     }

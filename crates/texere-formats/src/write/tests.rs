@@ -114,7 +114,7 @@ fn pieces_of_any_size_give_the_same_file() {
     let folder = tempfile::tempdir().unwrap();
     let formats =
         Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
-    let with = [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply]
+    let with = [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply, Format::Usda]
         .map(|format| format.with(VertexAttribute::ALL));
     for form in formats.map(MeshForm::from).chain(with) {
         let file = |piece| {

@@ -313,8 +313,10 @@ fn a_format_that_holds_no_attribute_refuses_it() {
         }
     }
     let curves = Output::to(folder.path().join("yarn.usda")).attributes(VertexAttribute::ALL);
-    let error = write::curves(&fabric(), curves).unwrap_err();
-    assert!(matches!(error, WriteError::UnknownFormat { .. }), "{error:?}");
+    for curves in [curves.clone(), curves.linear()] {
+        let error = write::curves(&fabric(), curves).unwrap_err();
+        assert!(matches!(error, WriteError::Unheld { format: "a file of curves", .. }), "{error:?}");
+    }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     // OBJ has texture coordinates anyway.
     let output = Output::to(folder.path().join("yarn.obj"));

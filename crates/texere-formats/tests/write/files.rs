@@ -5,15 +5,16 @@ use std::fs;
 use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 use tempfile::TempDir;
-use texere_core::backend::NullBackend;
+use texere_core::backend::{NullBackend, Plan, Run};
 use texere_core::{ControlPoint, Limits, Pipeline, Settings, Topology, Yarn, Yarns};
 use texere_cpu::SerialBackend;
 use texere_formats::WriteError;
 use texere_formats::write::{self, Format};
 
-use crate::fabric::{TINY, fabric, pipeline, whole};
+use crate::fabric::{TINY, fabric, pipeline, settings, whole};
 
 /// The files of a folder: names and contents.
 fn contents(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
@@ -113,6 +114,21 @@ fn a_mesh_that_is_not_what_was_planned_leaves_no_trace() {
             |error| matches!(error, WriteError::VertexCount { given, planned: all } if (*given, *all) == (count, planned)),
         );
     }
+}
+
+/// The chunks of a plan with room have places that no vertex belongs to.
+#[test]
+fn a_plan_with_room_leaves_no_trace() {
+    let yarns = fabric();
+    let plan = Plan::with_room(yarns.layout().clone(), settings(true), |_| 200).unwrap();
+    let plan = Arc::new(plan.with_topology(Topology::Shared));
+    let limits = Limits { blocks: 3, ..Limits::NONE };
+    let attempt = |path: &Path| {
+        let device = SerialBackend::new();
+        let run = Run::start(&device, plan.clone(), yarns.points(), limits, |_| ControlFlow::Continue(()));
+        write::run(run.unwrap(), yarns.materials(), path).unwrap_err()
+    };
+    leaves_no_trace(attempt, |error| matches!(error, WriteError::VertexCount { .. }));
 }
 
 #[test]

@@ -232,6 +232,25 @@ fn a_file_has_the_same_bytes_however_its_mesh_is_cut() {
     }
 }
 
+#[test]
+fn a_region_has_the_same_bytes_however_its_mesh_is_cut() {
+    let yarns = leaked(fabric());
+    for caps in [false, true] {
+        let first = std::cell::RefCell::new(BTreeMap::new());
+        for way in ways() {
+            each_file(
+                &[&WHOLE[..], &[Format::InstancedGlb]].concat(),
+                || pipeline(yarns, caps, way).within(region()),
+                |format, with, bytes| {
+                    let mut first = first.borrow_mut();
+                    let first = first.entry(format!("{format:?} {with}")).or_insert_with(|| bytes.clone());
+                    assert!(*first == bytes, "{format:?} {with}, caps {caps}, {way:?}");
+                },
+            );
+        }
+    }
+}
+
 /// A box cuts runs of rings out of yarns. Each run is one piece.
 #[test]
 fn a_region_has_a_piece_for_each_run_of_rings() {

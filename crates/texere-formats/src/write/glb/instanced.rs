@@ -24,9 +24,16 @@ use crate::write::target::Target;
 const INTERVALS: u32 = 16;
 
 /// The most that a coordinate of two equal parts differs, as a share of the largest coordinate of
-/// the cloth: eight times the share to which a float is rounded. A part's shape is rounded anew
+/// the cloth: eight times the distance between neighbouring floats. A part's shape is rounded anew
 /// wherever it recurs.
 const OFF: f32 = 1.0 / (1 << 20) as f32;
+
+/// The most that a coordinate of two equal parts differs in any cloth, mm: as much as in a packed
+/// file. A cloth of more than 5 m has parts that recur, but differ by more.
+const OFF_MOST_MM: f32 = 0.005;
+
+/// The largest coordinate of a cloth, mm. The difference of two coordinates is a float, too.
+const REACH_MOST_MM: f32 = f32::MAX / 4.0;
 
 /// An instanced GLB file that is being written. Its parts are kept until all vertices have come.
 #[derive(Debug)]
@@ -46,27 +53,33 @@ pub(in crate::write) struct InstancedGlbWriter<'a, W: Write + Seek> {
 
 impl<'a, W: Write + Seek> InstancedGlbWriter<'a, W> {
     /// Starts a file. It needs `bounds`, the boxes of all yarns.
+    ///
+    /// **Errors**: [`WriteError::Unheld`] for coordinates whose differences are no floats.
     pub(in crate::write) fn start(
         target: Target<W>,
         plan: &'a Plan,
         materials: &'a [Material],
         form: MeshForm,
         bounds: Option<&Bounds>,
-    ) -> Self {
+    ) -> Result<Self, WriteError> {
         let corners = bounds.into_iter().flat_map(Bounds::yarns).flatten().flatten();
         // A yarn without vertices has an empty box.
         let reach = corners.map(|place| place.abs()).filter(|place| *place < f32::MAX).fold(0.0, f32::max);
-        let (parts, form) = (Parts::new(reach * OFF), VertexForm::new(form));
+        if reach > REACH_MOST_MM {
+            let (format, what) = ("instanced GLB", format!("a coordinate of {reach:e} mm"));
+            return Err(WriteError::Unheld { format, what });
+        }
+        let (parts, form) = (Parts::new((reach * OFF).min(OFF_MOST_MM)), VertexForm::new(form));
         let (rings, cap) = (Vec::new(), Vec::new());
-        Self { target, plan, materials, form, parts, rings, last: (0, 0), cap }
+        Ok(Self { target, plan, materials, form, parts, rings, last: (0, 0), cap })
     }
 
     fn sides(&self) -> usize {
         self.plan.settings().sides as usize
     }
 
-    /// Takes the first vertex of ring number `ring` of a yarn. `begins` if the ring does not go on
-    /// from the ring before.
+    /// Begins ring number `ring` of a yarn. `begins` if the ring does not go on from the ring
+    /// before.
     fn ring(&mut self, yarn: u32, ring: u32, begins: bool) -> Result<(), WriteError> {
         let gaps = INTERVALS * (self.plan.settings().subdivisions + 1);
         let (sides, is_cut) = (self.sides(), self.last.0.is_multiple_of(gaps));

@@ -7,9 +7,9 @@ use texere_core::{End, Vertex};
 
 use crate::write::WriteError;
 
-/// The most bytes of vertices of different parts. The file is made in memory, because its document
-/// comes first and counts the parts. The Jacquard cloth of `designs/paper/figure-7a.toml`, 2,880 by
-/// 1,840 threads, takes 9 MB of them.
+/// The most bytes of different parts, each with its vertices and [`PART_BYTES`]. The file is made
+/// in memory, because its document comes first and counts the parts. The Jacquard cloth of
+/// `designs/paper/figure-7a.toml`, 2,880 by 1,840 threads, takes 9 MB of them.
 pub(super) const BYTES_MAX: u64 = 1 << 28;
 
 /// The bytes that a part takes besides its vertices: among the parts and in the document, most of
@@ -27,6 +27,10 @@ const BIN: f64 = 64.0;
 /// The most bins that are looked at for a part. Each feature near an edge doubles their number. A
 /// part for which there would be more is held a second time, which costs bytes and nothing else.
 const BINS_MOST: usize = 64;
+
+/// The most parts that a part is compared with. Of a large cloth whose parts differ a little, bins
+/// hold thousands. A part beyond the limit is held a second time.
+const COMPARED_MOST: usize = 64;
 
 /// The direction along which vertices are measured for a feature. No axis of a cloth is at right
 /// angles to it.
@@ -96,6 +100,7 @@ impl Parts {
         let equal = bins(&features, 1.0 / BIN)
             .filter_map(|bins| self.found.get(&(kind, bins)))
             .flatten()
+            .take(COMPARED_MOST)
             .find(|part| self.are_equal(&self.parts[**part].vertices, &own));
         if let Some(&equal) = equal {
             self.parts[equal].places.push(place);
@@ -158,7 +163,7 @@ fn bins(features: &[f64; FEATURES], off: f64) -> impl Iterator<Item = [i32; FEAT
         all.iter_mut().for_each(|bins| bins[number] = own);
         all.extend_from_within(..others);
         let before = all.len() - others;
-        all[before..].iter_mut().for_each(|bins| bins[number] = low + high - own);
+        all[before..].iter_mut().for_each(|bins| bins[number] = low ^ high ^ own);
     }
     all.into_iter()
 }

@@ -38,8 +38,8 @@ pub(crate) unsafe fn slice<'a, T>(name: &str, pointer: *const T, count: usize) -
 ///
 /// # Safety
 ///
-/// `pointer` is valid for writes of `count` values, which nobody else uses as long as the result
-/// lives.
+/// `pointer` is valid for writes of `count` values. Nothing else uses the values as long as the
+/// result lives.
 pub(crate) unsafe fn slice_mut<'a, T>(
     name: &str,
     pointer: *mut T,

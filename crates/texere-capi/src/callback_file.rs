@@ -35,8 +35,7 @@ impl CallbackFile {
 
 impl Write for CallbackFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // SAFETY: whoever made the file vouches for the callback; the bytes are valid while it
-        // runs.
+        // SAFETY: `CallbackFile::new` asks for a valid callback. The bytes are valid while it runs.
         let answer = unsafe { (self.take)(self.user, self.position, bytes.as_ptr(), bytes.len()) };
         Answer::of(answer).map_err(io::Error::other)?;
         self.position += bytes.len() as u64;

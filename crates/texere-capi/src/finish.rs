@@ -39,22 +39,22 @@ pub struct texere_finish {
     pub struct_size: u32,
     /// 1 if the yarns come to rest, 0 if they stay where the structure places them.
     pub settle: u32,
-    /// Of knits: a constant whose name begins with TEXERE_LENGTH.
+    /// For knits: a constant whose name begins with TEXERE_LENGTH.
     pub length_kind: u32,
     /// A number whose meaning the constant in `length_kind` says.
     pub length: f32,
-    /// Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+    /// For knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
     /// 0: no plates.
     pub press_mm: f32,
-    /// Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
+    /// For woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
     pub warp_tension: f32,
-    /// Of woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
+    /// For woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
     pub weft_tension: f32,
-    /// Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
+    /// For woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
     pub calender: f32,
     /// A constant whose name begins with TEXERE_STRETCH.
     pub stretch: u32,
-    /// Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+    /// For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
     pub passes: u32,
     /// The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
     pub stretch_by: f64,

@@ -21,7 +21,7 @@ impl Editing {
     ///
     /// # Safety
     ///
-    /// As for [`memory`].
+    /// The conditions of [`memory`] hold.
     unsafe fn read_into(
         &mut self,
         wanted: &texere_change,

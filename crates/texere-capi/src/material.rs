@@ -78,7 +78,7 @@ pub struct texere_looks {
 ///
 /// # Safety
 ///
-/// As for `slice`.
+/// The conditions of `slice` hold.
 pub(crate) unsafe fn array<'a, T>(name: &str, pointer: *const T, count: u64) -> Result<&'a [T], Failure> {
     let count = usize::try_from(count)
         .map_err(|_| Failure::argument(format!("{name} has {count} values, more than memory can hold")))?;

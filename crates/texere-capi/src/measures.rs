@@ -100,8 +100,8 @@ pub unsafe extern "C" fn texere_cloth_measures(
 
 fn of(measures: &Measures, [width, height]: [f64; 2]) -> texere_measures {
     let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    // Compilers may read a part of what is not there before they ask whether it is, and then not
-    // use it. Checkers of memory report that, so the compiler is not told where the parts lie.
+    // A compiler may read a measure before it looks whether the measure is there, and then drop the
+    // value. Checkers of memory report such a read. The black box hides where the measures lie.
     let (crimp, cover, knit) =
         black_box((measures.crimp.as_ref(), measures.cover.as_ref(), measures.knit.as_ref()));
     let factor = black_box(cover.and_then(|cover| cover.factor.as_ref()));

@@ -105,8 +105,8 @@ impl Planned {
 ///
 /// # Safety
 ///
-/// Both pointers are valid for writes of as many values as their counts say, which nobody else uses
-/// as long as the result lives.
+/// Both pointers are valid for writes of as many values as their counts say. Nothing else uses the
+/// values as long as the result lives.
 pub(crate) unsafe fn memory<'a>(
     (vertices, vertex_count): (*mut texere_vertex, u64),
     (indices, index_count): (*mut u32, u64),

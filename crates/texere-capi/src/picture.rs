@@ -165,7 +165,7 @@ pub unsafe extern "C" fn texere_picture_default(picture: *mut texere_picture) ->
 ///
 /// # Safety
 ///
-/// As for `sized`.
+/// The conditions of `sized` hold.
 pub(crate) unsafe fn checked(pointer: *const texere_picture) -> Result<texere_picture, Failure> {
     // SAFETY: the caller vouches for it.
     let picture = unsafe { sized("picture", pointer) }?;

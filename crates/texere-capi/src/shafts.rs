@@ -95,7 +95,7 @@ fn check_offsets(name: &str, offsets: &[u64]) -> Result<(), Failure> {
 }
 
 impl texere_draft {
-    /// The draft of a cloth of so many ends and picks.
+    /// The draft of a cloth with this number of ends and picks.
     ///
     /// # Safety
     ///

@@ -67,7 +67,7 @@ impl texere_view {
     ///
     /// # Safety
     ///
-    /// As for [`holds`](Self::holds).
+    /// The conditions of [`holds`](Self::holds) hold.
     pub(crate) unsafe fn holds_any<'a, T: Copy>(
         &self,
         name: &str,
@@ -83,7 +83,7 @@ impl texere_view {
     /// # Safety
     ///
     /// The `size` bytes at `data` are valid for reads, and for the writes that the result is used
-    /// for. Nobody else writes them as long as the result lives.
+    /// for. Nothing else writes them as long as the result lives.
     pub(crate) unsafe fn holds<'a, T: Copy>(
         &self,
         name: &str,
@@ -104,7 +104,7 @@ impl texere_view {
     ///
     /// # Safety
     ///
-    /// As for `holds`.
+    /// The conditions of `holds` hold.
     pub(crate) unsafe fn rows<'a>(
         &self,
         name: &str,

@@ -159,7 +159,7 @@ impl texere_weft_knit {
     ///
     /// # Safety
     ///
-    /// As for `read`.
+    /// The conditions of `read` hold.
     unsafe fn charted(&self) -> Result<Chart, Failure> {
         let Self { wales, courses, .. } = *self;
         if self.backing != TEXERE_BACKING_NONE {
@@ -191,7 +191,7 @@ impl texere_weft_knit {
     ///
     /// # Safety
     ///
-    /// As for `read`.
+    /// The conditions of `read` hold.
     unsafe fn pictured(&self) -> Result<Chart, Failure> {
         let Self { wales, courses, .. } = *self;
         if !self.stitches.is_null() || self.turn_count != 0 || self.beds != 0 {

@@ -158,7 +158,7 @@ impl texere_woven {
     ///
     /// # Safety
     ///
-    /// As for `read`.
+    /// The conditions of `read` hold.
     unsafe fn weave(&self, ends: usize, picks: usize) -> Result<(Drawdown, Option<Draft>), Failure> {
         let refuse = |error| refused("woven", error, &[]);
         // Sizes that no cloth has are refused before any array is read.

@@ -9,8 +9,8 @@ use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{print, reading};
 
-/// Bytes of rows that are gathered before they are printed. With so many bytes at a time, the fixed
-/// cost of a system call is small beside that of copying the bytes.
+/// Bytes of rows that are gathered before they are printed. At this size the fixed cost of a system
+/// call is small beside that of copying the bytes.
 const GATHERED: usize = 1 << 16;
 
 pub(crate) fn run(args: &DraftArgs) -> Result<(), Fail> {

@@ -291,7 +291,7 @@ impl<'a> ScanChunks<'a> {
     }
 
     /// Asks whether to go on. An engine that does not take the chunks one by one asks a few times
-    /// in each 50 ms. After `Break` it returns early: nobody reads its results.
+    /// in each 50 ms. After `Break` it returns early, and its results are dropped.
     pub fn watch(&mut self) -> ControlFlow<()> {
         (self.watch)()
     }

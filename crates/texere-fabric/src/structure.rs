@@ -84,8 +84,8 @@ impl Structure {
         }
     }
 
-    /// The tension of the yarns' splines, if nobody asks for another: 0, or that of yarns that no
-    /// structure made.
+    /// The tension of the yarns' splines unless a caller asks for another. It is 0, or that of
+    /// yarns that no structure made.
     #[must_use]
     pub fn tension(&self) -> f32 {
         match self {

@@ -114,10 +114,10 @@ impl Design {
 
     /// The design with another finish; what is None stays as it is.
     ///
-    /// ``settle`` lets yarns come to rest. Of woven cloth: ``warp_tension`` and ``weft_tension``, 0
-    /// to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how strongly the cloth is pressed flat;
+    /// ``settle`` lets yarns come to rest. For woven cloth: ``warp_tension`` and ``weft_tension``,
+    /// 0 to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how strongly the cloth is pressed flat;
     /// ``stretch``, ``("warp", 1.1)`` to make the cloth 1.1 times as long along its warp, 0.5 to 2.
-    /// Of knits: ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5
+    /// For knits: ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5
     /// to 2 times the length of yarn that is placed. ``passes``, 1 to 1000000: the most passes of a
     /// knit.
     ///

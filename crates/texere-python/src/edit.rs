@@ -33,7 +33,7 @@ use crate::{device, watch};
 #[pyclass(frozen, module = "texere", name = "Live")]
 #[derive(Debug)]
 pub(crate) struct Editing {
-    /// The cloth, and whether all its changes up to an update have been told.
+    /// The cloth, and whether `changes` has given all changes up to an update.
     live: Mutex<(Live, bool)>,
     /// The cloth before all edits.
     cloth: Arc<texere::Cloth>,

@@ -7,7 +7,7 @@ use pyo3::types::PyDict;
 /// Where a call's progress is shown.
 #[derive(Debug)]
 pub(crate) enum Shown {
-    /// Nobody.
+    /// No progress is shown.
     Nobody,
     /// A progress bar of tqdm that is not drawn yet, with the text before it. Short calls end
     /// before it is drawn.

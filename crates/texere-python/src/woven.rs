@@ -95,7 +95,7 @@ pub(crate) fn read(value: &Bound<'_, PyAny>) -> PyResult<Drawdown> {
     Ok(drawdown)
 }
 
-/// As many threads as `count` says, of `yarns` in turn.
+/// `count` threads that take the `yarns` in turn.
 fn threads(
     bobbins: &Bobbins,
     yarns: &[usize],

@@ -319,7 +319,7 @@ impl Live {
     }
 
     /// Adds the sources of yarn number `yarn`, which has `count` control points now, to `sources`.
-    /// `told` holds the sources of the yarn of that number in `self.source`.
+    /// `told` are the sources that the yarn of that number has in `self.source`.
     fn tell(&self, yarn: usize, told: Option<&[u32]>, count: usize, sources: &mut Vec<u32>) {
         match (told, self.set.get(&yarn)) {
             (_, Some(SetYarn { sources: Some(said), .. })) => sources.extend_from_slice(said),

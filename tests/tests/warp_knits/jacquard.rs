@@ -69,8 +69,8 @@ fn clear(cloth: &WarpKnitted) -> f64 {
 /// needles there.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
-    // Of some 150 random figures: the one whose legs differ most in their bends above the cloth,
-    // one whose upper end came nearest to a neighbour, and two whose lower ends did.
+    // Four of some 150 random figures: the one whose legs differ most in their bends above the
+    // cloth, one whose upper end came nearest to a neighbour, and two whose lower ends did.
     let random = [
         [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2],
         [2, 0, 1, 2, 1, 0, 0, 1, 1, 0, 2, 2, 1, 2, 1, 2, 2, 0],

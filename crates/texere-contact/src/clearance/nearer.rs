@@ -7,7 +7,7 @@ use glam::{DVec2, DVec4, Vec4Swizzles};
 
 use super::interval::{Cubic, closest, off_chord};
 
-/// The most halvings of an interval. A piece that comes from so many halvings is compared at one
+/// The most halvings of an interval. A piece that is left after the last halving is compared at one
 /// place only.
 const HALVINGS: u32 = 12;
 

@@ -153,7 +153,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The same plan with triangles in another encoding. Its chunks are its own.
+    /// This plan with triangles in another encoding. The new plan has chunks of its own.
     ///
     /// ```
     /// use texere_core::backend::Plan;

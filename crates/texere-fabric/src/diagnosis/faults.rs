@@ -50,7 +50,7 @@ pub struct Faults {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ClothFault {
-    /// A place holds so much yarn, or so many parts of yarns, that contacts are not measured there:
+    /// A place holds too much yarn, or too many parts of yarns, for contacts to be measured there:
     /// see [`Crowd::fill`](texere_contact::Crowd::fill).
     Crowded,
     /// Threads pierce one another, or themselves.

@@ -36,7 +36,7 @@ const ABOVE: u32 = 3;
 /// a least clearance of 0.983 and 0.980 with 0 and 0.06, and of 0.995 with 0.08 to 1/7. With 0.06
 /// `figures_are_as_clear_where_they_are_cut_off` is red.
 ///
-/// Of 670 random figures of two diameters, one had a clearance below 0.99: 0.966, between two upper
+/// One of 670 random figures of two diameters had a clearance below 0.99: 0.966, between two upper
 /// ends that were moved towards one another. `any_figure_rests` allows 0.95.
 const ASIDE: [f32; 2] = [0.1, 1.0 / 7.0];
 

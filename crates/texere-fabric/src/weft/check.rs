@@ -141,7 +141,7 @@ pub(super) fn size(stitches: &Stitches, copies: [u32; 2]) -> Result<(), WeftErro
     if points > POINTS_MAX { Err(WeftError::KnitPoints { points, limit: POINTS_MAX }) } else { Ok(()) }
 }
 
-/// Returns `points`, or an error if a repeat of so many points can't be laid as one.
+/// Returns `points`, or an error if they are more than a repeat may have.
 pub(crate) fn repeat_points(points: u64) -> Result<u64, WeftError> {
     if points > REPEAT_POINTS_MAX {
         return Err(WeftError::KnitRepeat { points, limit: REPEAT_POINTS_MAX });

@@ -103,7 +103,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Reads the number of items of a list, whose items have at least `each` bytes each. The number
-    /// is refused if the bytes left are too few for so many items.
+    /// is refused if the bytes left are too few for them.
     pub(super) fn count(&mut self, field: &'static str, each: u64) -> Result<usize, ReadError> {
         let at = self.at();
         let count = self.long(field)?;

@@ -28,11 +28,11 @@ use crate::yarns_file::BYTES_MAX;
 /// Its prims of the type `BasisCurves` are the curves: linear ones, Catmull-Rom, Bézier and
 /// B-spline curves of any wrap, where translations, rotations and scales place them. A yarn has the
 /// widths of its curve, and the colour of a prim or a curve becomes that of its material. Bézier
-/// and B-spline curves become splines through so many points that these run within a hundredth of
-/// the radius beside them; corners become round. If all curves are splines of one tension, as those
-/// that texere writes, their own points are kept, and the yarns have that tension. texere makes the
-/// points beyond the ends of a Catmull-Rom curve itself. One file is read: stages that refer to
-/// others, or have variants, are refused.
+/// and B-spline curves become splines, with as many points as keep a spline within a hundredth of
+/// the radius beside its curve; corners become round. If all curves are splines of one tension, as
+/// those that texere writes, their own points are kept, and the yarns have that tension. texere
+/// makes the points beyond the ends of a Catmull-Rom curve itself. One file is read: stages that
+/// refer to others, or have variants, are refused.
 ///
 /// A file that ends in `.tg3` (feature `texgen`) is read as one of TexGen, the University of
 /// Nottingham's modeller of textiles. Each of its yarns becomes one yarn, whole and once: repeats

@@ -25,7 +25,8 @@ pub(super) struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// How a texture lies at each of the vertices. If nobody asked, all is 0.
+    /// How a texture lies at each of the vertices. All numbers are 0 if the file has neither
+    /// texture coordinates nor tangents.
     pub(super) fn surfaces(&self) -> impl Iterator<Item = Surface> {
         self.surfaces.iter().copied().chain(std::iter::repeat(Surface::default())).take(self.vertices.len())
     }

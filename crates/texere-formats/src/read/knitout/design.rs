@@ -20,7 +20,7 @@ const GAUGE: f64 = 15.0;
 /// the width of the wales, because a knitout file does not say how thick its yarns are.
 const WALE_OF_DIAMETER: f64 = 5.0;
 
-/// Colours of the carriers, since a file has none that can be drawn. They are easily told apart,
+/// Colours of the carriers, since a file has none that can be drawn. They are easy to distinguish,
 /// and none is too dark to show a yarn's shape.
 const COLORS: [[u8; 3]; 8] = [
     [0xd9, 0xcf, 0xb8],

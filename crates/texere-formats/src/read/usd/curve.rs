@@ -25,8 +25,8 @@ pub(super) enum Wrap {
 }
 
 impl Form {
-    /// How many vertices of a curve of `count` have a value that varies along the curve, or none if
-    /// no curve has so many.
+    /// How many vertices of a curve of `count` have a value that varies along the curve. None if no
+    /// curve of this form has `count` vertices.
     pub(super) fn varying(self, wrap: Wrap, count: usize) -> Option<usize> {
         let least = match (self, wrap) {
             (Self::Linear | Self::CatmullRom | Self::BSpline, Wrap::Periodic) | (Self::Bezier, _) => 3,

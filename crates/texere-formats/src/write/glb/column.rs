@@ -109,8 +109,8 @@ pub(super) const OCTAHEDRAL_TANGENTS: Column = Column {
     ..PACKED_TANGENTS
 };
 
-/// Numbers of yarns. glTF has no vertices with 32-bit whole numbers. Floats tell 16,777,216 yarns
-/// apart. The nodes of so many take more than the 4 GiB of a file.
+/// Numbers of yarns. glTF has no vertices with 32-bit whole numbers. Floats number 16,777,216 yarns
+/// without gaps, and the nodes of that many take more than the 4 GiB of a file.
 pub(super) const YARNS: Column = Column {
     semantic: "_YARN",
     bytes: 4,

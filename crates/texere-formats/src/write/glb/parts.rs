@@ -50,9 +50,9 @@ pub(super) struct Kind {
 /// The triangles of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Triangles {
-    /// Those of a tube with this number of gaps between rings.
+    /// The triangles of a tube with this number of gaps between rings.
     Tube { gaps: u32 },
-    /// Those of the cap of a section at an end.
+    /// The triangles of the cap of a section at an end.
     Cap { section: u32, end: End },
 }
 

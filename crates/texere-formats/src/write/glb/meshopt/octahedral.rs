@@ -6,9 +6,9 @@ const STEPS: f32 = 127.0;
 /// The bytes of a `direction` before the filter: both its numbers on the octahedron, 1 in the same
 /// steps, and `fourth`, which the filter passes on. A direction of no length becomes some other.
 ///
-/// Of the four nearest pairs of numbers, the one is taken that readers decode to the nearest
-/// direction. In 200,000 directions this was off by 0.80 degrees at most; rounding each number by
-/// itself was off by 1.18.
+/// The encoder tries the four nearest pairs of numbers. It takes the pair that readers decode to
+/// the nearest direction. In 200,000 directions this was off by 0.80 degrees at most; rounding each
+/// number by itself was off by 1.18.
 pub(in crate::write::glb) fn octahedral(direction: [f32; 3], fourth: i8) -> [u8; 4] {
     let [x, y, z] = direction;
     let length = x.abs() + y.abs() + z.abs();

@@ -269,7 +269,7 @@ fn mean_half_width(points: &[ControlPoint]) -> f64 {
 }
 
 /// Length of yarn of each material, mm, in the materials' order. `lengths` are the yarns' lengths,
-/// mm (see [`lengths_mm`](texere_contact::lengths_mm)).
+/// mm (see [`lengths_mm`]).
 #[must_use]
 pub fn lengths_by_material(yarns: &Yarns, lengths: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; yarns.materials().len()];

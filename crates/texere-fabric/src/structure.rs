@@ -97,7 +97,7 @@ impl Structure {
     /// The piece that settles by contact, and the number of its copies in the fabric. The piece of
     /// a knit is one repeat (see [`Knitted::repeat`] and [`WarpKnitted::repeat`]), or the whole
     /// fabric if it does not repeat. Woven cloth settles by its crossings instead. Its piece is the
-    /// whole cloth, cut off at its edges and held there, for use with [`settle`](crate::settle).
+    /// whole cloth, cut off at its edges and held there, for use with [`settle`].
     ///
     /// **Errors**: the errors of [`Structure::yarns`].
     pub fn repeat(&self) -> Result<Repeat, FabricError> {

@@ -557,22 +557,22 @@ typedef struct texere_finish {
   uint32_t struct_size;
   // 1 if the yarns come to rest, 0 if they stay where the structure places them.
   uint32_t settle;
-  // Of knits: a constant whose name begins with TEXERE_LENGTH.
+  // For knits: a constant whose name begins with TEXERE_LENGTH.
   uint32_t length_kind;
   // A number whose meaning the constant in `length_kind` says.
   float length;
-  // Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+  // For knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
   // 0: no plates.
   float press_mm;
-  // Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
+  // For woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
   float warp_tension;
-  // Of woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
+  // For woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
   float weft_tension;
-  // Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
+  // For woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
   float calender;
   // A constant whose name begins with TEXERE_STRETCH.
   uint32_t stretch;
-  // Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+  // For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
   uint32_t passes;
   // The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
   double stretch_by;

@@ -1653,7 +1653,7 @@ namespace Texere
         /// </summary>
         public uint settle;
         /// <summary>
-        ///  Of knits: a constant whose name begins with TEXERE_LENGTH.
+        ///  For knits: a constant whose name begins with TEXERE_LENGTH.
         /// </summary>
         public uint length_kind;
         /// <summary>
@@ -1661,20 +1661,20 @@ namespace Texere
         /// </summary>
         public float length;
         /// <summary>
-        ///  Of knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
+        ///  For knits: distance of two plates that press the cloth while yarns settle, 0.001 to 1000 mm.
         ///  0: no plates.
         /// </summary>
         public float press_mm;
         /// <summary>
-        ///  Of woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
+        ///  For woven cloth: tautness of the warp, 0 to 10, 1 in relaxed cloth.
         /// </summary>
         public float warp_tension;
         /// <summary>
-        ///  Of woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
+        ///  For woven cloth: tautness of the weft, 0 to 10, 1 in relaxed cloth.
         /// </summary>
         public float weft_tension;
         /// <summary>
-        ///  Of woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
+        ///  For woven cloth: how strongly it is pressed flat, 0 to 10, 1 in relaxed cloth.
         /// </summary>
         public float calender;
         /// <summary>
@@ -1682,7 +1682,7 @@ namespace Texere
         /// </summary>
         public uint stretch;
         /// <summary>
-        ///  Of knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+        ///  For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
         /// </summary>
         public uint passes;
         /// <summary>

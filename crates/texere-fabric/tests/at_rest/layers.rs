@@ -1,5 +1,7 @@
 //! Cloths of several layers at rest.
 
+use std::cmp::Ordering;
+
 use texere_core::crossings::Set;
 use texere_core::{Material, Origin, Section};
 use texere_fabric::{Drawdown, Thread, Woven, WovenRest};
@@ -126,4 +128,48 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
 fn layers_in_one_place_pierce() {
     let clearance = Surfaces::new(&cloth(double(plain, false), 2.0).yarns().unwrap()).clearance();
     assert!(clearance < 0.8, "{clearance}");
+}
+
+/// Layers of one weave. `ends` and `picks` are the layers of a repeat of threads, 0 for the face.
+fn layered(weave: fn(usize, usize) -> bool, ends: &[usize], picks: &[usize]) -> Drawdown {
+    // The number of a thread among those of its layer.
+    let own = |layers: &[usize], thread: usize| {
+        let same = |number: &usize| layers[number % layers.len()] == layers[thread % layers.len()];
+        (0..thread).filter(same).count()
+    };
+    let up = |end: usize, pick: usize| match ends[end % ends.len()].cmp(&picks[pick % picks.len()]) {
+        Ordering::Less => true,
+        Ordering::Equal => weave(own(ends, end), own(picks, pick)),
+        Ordering::Greater => false,
+    };
+    Drawdown::from_fn(THREADS, THREADS, up).unwrap()
+}
+
+/// In open cloth layers lie in one another. Threads of two layers that would be in one place are
+/// pushed apart. Where they were not, clearances fell to 0.1 and below.
+#[test]
+fn layers_rest_at_any_sett() {
+    for (name, drawdown) in [
+        ("double plain", double(plain, false)),
+        ("double twill", double(twill, false)),
+        ("double twill, stitched", double(twill, true)),
+        ("two face, two back", layered(twill, &[0, 0, 1, 1], &[0, 0, 1, 1])),
+        ("picks face, back, back, face", layered(twill, &[0, 1], &[0, 1, 1, 0])),
+        ("treble plain", layered(plain, &[0, 1, 2], &[0, 1, 2])),
+        ("quadruple plain", layered(plain, &[0, 1, 2, 3], &[0, 1, 2, 3])),
+    ] {
+        for pitch in [2.6, 3.5, 5.0] {
+            let woven = cloth(drawdown.clone(), pitch);
+            let rest = at_rest(&woven);
+            let surfaces = Surfaces::new(&rest.yarns);
+            let (clearance, folds) = (surfaces.clearance(), tightest(&rest.yarns));
+            println!("{name} at {pitch}: {clearance:.3}, bends {folds:.2}, area {:?}", rest.area);
+            assert!(clearance >= 0.98, "{name} at {pitch}: {clearance}");
+            assert!(folds >= 1.0, "{name} at {pitch} folds: {folds}");
+            for set in Set::BOTH {
+                assert!(rest.area[set] >= 0.87, "{name} at {pitch}: area {:?}", rest.area);
+            }
+            threads_cross_as_they_are_woven(&woven, &rest);
+        }
+    }
 }

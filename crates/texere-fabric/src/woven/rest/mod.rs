@@ -2,9 +2,11 @@
 
 mod certificate;
 mod ease;
+mod nesting;
 mod path;
 mod problem;
 mod resting;
+mod span;
 mod stop;
 mod stretch;
 

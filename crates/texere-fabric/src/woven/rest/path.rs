@@ -51,6 +51,15 @@ impl Station {
     }
 }
 
+/// A thread on its way between two crossings.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Passing {
+    /// The height of the thread's middle, mm.
+    pub(super) z: f64,
+    /// How steep the thread is.
+    pub(super) slope: f64,
+}
+
 /// A change of sides between two crossings. The thread follows an arc round each crossed thread,
 /// and the straight line that touches both arcs.
 pub(super) struct Change<'a> {
@@ -90,6 +99,17 @@ impl<'a> Change<'a> {
         let mut stops = std::array::from_fn(|point| self.at(self.whole() * point as f64 / STEPS));
         ease(&mut stops, self.turns);
         stops.into_iter().skip(1).take(CHANGE_POINTS)
+    }
+
+    /// The path of the thread at `along`.
+    pub(super) fn passing(&self, along: f64) -> Passing {
+        let [one, _] = self.way.stations;
+        let x = (along - one.at).abs();
+        let part = self.line.partition_point(|point| point[0] < x).clamp(1, LINE - 1);
+        let [[from, before], [to, after]] = [self.line[part - 1], self.line[part]];
+        let [run, rise] = [(to - from).max(f64::MIN_POSITIVE), after - before];
+        let share = ((x - from) / run).clamp(0.0, 1.0);
+        Passing { z: one.crossed_z + one.side * (before + share * rise), slope: (rise / run).abs() }
     }
 
     /// The points from the first crossing to the place where the thread is cut off, at `edge`. They

@@ -9,8 +9,9 @@ use texere_core::backend::zeroed;
 use texere_core::crossings::{CrossingState, CrossingsPlan, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 
-use super::path::{Change, Station, float};
+use super::path::Station;
 use super::problem::{Problem, gaps};
+use super::span::Span;
 use super::stop::{CHANGE_POINTS, Stop};
 use crate::woven::selvedge::{self, TURN_POINTS};
 use crate::woven::yarns::{Pass, Pen};
@@ -124,7 +125,7 @@ impl RestingRepeat {
 
 /// Number of threads beyond either edge that are known, because the repeat goes on there. A thread
 /// bends round the next one that it meets beyond the edge.
-const BEYOND: usize = 8;
+pub(super) const BEYOND: usize = 8;
 
 /// The places of one set of threads.
 struct Threads {
@@ -134,14 +135,16 @@ struct Threads {
 }
 
 /// A cloth with its crossings at rest, whose control points are to be placed.
-struct Placing<'a> {
-    resting: &'a RestingRepeat,
+pub(super) struct Placing<'a> {
+    pub(super) resting: &'a RestingRepeat,
     cloth: &'a Woven,
     sets: [Threads; 2],
+    /// For each crossing of the repeat, how far its end and its pick are pushed up, mm; or empty.
+    pushes: Vec<[f64; 2]>,
 }
 
 /// A thread: its set, 0 or 1, and its number.
-type Of = (usize, usize);
+pub(super) type Of = (usize, usize);
 
 impl<'a> Placing<'a> {
     fn new(resting: &'a RestingRepeat, cloth: &'a Woven) -> Self {
@@ -157,17 +160,15 @@ impl<'a> Placing<'a> {
             }
             Threads { at, extent: size[set] }
         });
-        Self { resting, cloth, sets }
+        let mut placing = Self { resting, cloth, sets, pushes: Vec::new() };
+        placing.pushes = placing.pushes();
+        placing
     }
 
     /// A thread at a crossing. `crossed` is the number of the crossed thread, counted from the
     /// first of the [`BEYOND`] threads beyond the edge.
-    fn station(&self, (set, thread): Of, crossed: usize) -> Station {
-        let other = 1 - set;
-        let repeat = self.resting.repeat[other];
-        let within = (crossed + BEYOND * (repeat - 1)) % repeat;
-        let number =
-            if set == 0 { self.resting.number(thread, within) } else { self.resting.number(within, thread) };
+    pub(super) fn station(&self, (set, thread): Of, crossed: usize) -> Station {
+        let (other, number) = (1 - set, self.crossing((set, thread), crossed));
         let (rest, drawn) = (&self.resting.rest[number], &self.resting.drawn[number]);
         let [own, under] = if set == 0 { [&rest.warp, &rest.weft] } else { [&rest.weft, &rest.warp] };
         let room = self.resting.rooms[set][thread];
@@ -185,7 +186,7 @@ impl<'a> Placing<'a> {
     }
 
     /// Whether the end lies on top at a crossing of the repeat.
-    fn up(&self, number: usize) -> bool {
+    pub(super) fn up(&self, number: usize) -> bool {
         let (end, pick) = (number % self.resting.repeat[0], number / self.resting.repeat[0]);
         self.cloth.drawdown().up(end % self.cloth.warp().len(), pick % self.cloth.weft().len())
     }
@@ -202,22 +203,26 @@ impl<'a> Placing<'a> {
         }
     }
 
-    /// Whether a thread bends round a thread that it crosses. It does not if the two belong to
-    /// different layers and the thread of the higher layer lies on top.
-    fn meets(&self, (set, thread): Of, crossed: usize) -> bool {
-        let [own, others] = [set, 1 - set].map(|set| &self.resting.layers[set]);
-        let other = (crossed + BEYOND * (others.len() - 1)) % others.len();
-        let number =
-            if set == 0 { self.resting.number(thread, other) } else { self.resting.number(other, thread) };
-        match own[thread % own.len()].cmp(&others[other]) {
+    /// The number, within the repeat, of the crossing of a thread and a crossed one.
+    pub(super) fn crossing(&self, (set, thread): Of, crossed: usize) -> usize {
+        let repeat = self.resting.repeat[1 - set];
+        let within = (crossed + BEYOND * (repeat - 1)) % repeat;
+        if set == 0 { self.resting.number(thread, within) } else { self.resting.number(within, thread) }
+    }
+
+    /// Whether the two threads of a crossing of the repeat bend round one another. They do not if
+    /// they belong to different layers and the thread of the higher layer lies on top.
+    pub(super) fn binds(&self, number: usize) -> bool {
+        let [warp, weft] = &self.resting.layers;
+        match warp[number % warp.len()].cmp(&weft[number / warp.len()]) {
             Ordering::Equal => true,
-            apart => (self.up(number) == (set == 0)) != apart.is_gt(),
+            apart => self.up(number) != apart.is_gt(),
         }
     }
 
     /// The crossed threads that a thread bends round, with the next one beyond either edge.
-    fn met(&self, of: Of, count: usize) -> Vec<usize> {
-        let meets = |crossed: &usize| self.meets(of, *crossed);
+    pub(super) fn met(&self, of: Of, count: usize) -> Vec<usize> {
+        let meets = |crossed: &usize| self.binds(self.crossing(of, *crossed));
         let before = (0..BEYOND).rev().find(meets).unwrap_or(BEYOND - 1);
         let after = (BEYOND + count..count + 2 * BEYOND).find(meets).unwrap_or(BEYOND + count);
         let met = (BEYOND..BEYOND + count).filter(meets);
@@ -229,9 +234,13 @@ impl<'a> Placing<'a> {
         let met = self.met(of, count);
         let mut points = met.len() - 2 + if pass.turns() { TURN_POINTS } else { 0 };
         let sides: Vec<f64> = met.iter().map(|&crossed| self.station(of, crossed).side).collect();
-        for near in sides.windows(4) {
+        for (near, stops) in sides.windows(4).zip(met[1..].windows(2)) {
             let [before, changes, after] = [0, 1, 2].map(|at| near[at] != near[at + 1]);
-            points += if changes { CHANGE_POINTS } else { usize::from(before) + usize::from(after) };
+            points += if changes {
+                CHANGE_POINTS
+            } else {
+                stops[1] - stops[0] - 1 + usize::from(before) + usize::from(after)
+            };
         }
         for last in [false, true] {
             if cut[usize::from(last)] {
@@ -264,17 +273,14 @@ impl<'a> Placing<'a> {
             lead.into_iter().rev().for_each(&mut stop);
         }
         let last = met.len() - 1;
-        let station = |step: usize| self.station(of, met[if back { last - step } else { step }]);
+        let crossed = |step: usize| met[if back { last - step } else { step }];
+        let station = |step: usize| self.station(of, crossed(step));
         let [mut before, mut here] = [0, 1].map(station);
         for step in 1..last - 1 {
             stop(here.stop());
             let next = station(step + 1);
             let changes = [before.side != here.side, station(step + 2).side != next.side];
-            if next.side == here.side {
-                float(&here, &next, changes).for_each(&mut stop);
-            } else {
-                Change::new(&here, &next, changes).points().for_each(&mut stop);
-            }
+            self.span(of, [crossed(step), crossed(step + 1)]).stops(changes, &mut stop);
             (before, here) = (here, next);
         }
         stop(here.stop());
@@ -289,15 +295,15 @@ impl<'a> Placing<'a> {
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
-        let [inner, here, beyond] = steps.map(|step| self.station(of, met[step]));
+        let [inner, here, beyond] = steps.map(|step| met[step]);
         let edge = if upper { self.sets[1 - of.0].extent } else { 0.0 };
-        if here.side == beyond.side {
-            let within = |stop: &Stop| (stop.along - here.at) * (edge - stop.along) > 0.0;
-            float(&here, &beyond, [inner.side != here.side, false]).filter(within).for_each(&mut *stop);
-            stop(here.stop().towards(&beyond.stop(), edge));
-        } else {
-            Change::new(&here, &beyond, [inner.side != here.side, false]).until(edge).for_each(stop);
-        }
+        let changes = self.station(of, inner).side != self.station(of, here).side;
+        self.span(of, [here, beyond]).until(edge, changes, stop);
+    }
+
+    /// The way of a thread between two crossed threads that it bends round.
+    fn span(&self, of: Of, stops: [usize; 2]) -> Span {
+        Span::new(self, of, stops, &self.pushes)
     }
 
     /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the

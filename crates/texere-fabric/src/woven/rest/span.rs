@@ -1,0 +1,110 @@
+//! The way of a thread between two crossings at which it bends.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::path::{Change, Passing, Station, float};
+use super::resting::{Of, Placing};
+use super::stop::Stop;
+
+/// The way of a thread between two crossings at which it bends.
+#[derive(Debug)]
+pub(super) struct Span {
+    one: Station,
+    two: Station,
+    /// The crossings between the two, which the thread passes without a bend, and how far it is
+    /// pushed up at each, mm. If the thread stays on its side, its heights are those of its way.
+    passed: Vec<(Station, f64)>,
+}
+
+impl Span {
+    /// The way of a thread from a crossed thread to another one, both counted from the first of the
+    /// threads beyond the edge. `pushes` are those of all crossings of the repeat, or empty.
+    pub(super) fn new(placing: &Placing<'_>, of: Of, [from, to]: [usize; 2], pushes: &[[f64; 2]]) -> Self {
+        let [one, two] = [from, to].map(|crossed| placing.station(of, crossed));
+        let passed = |crossed| {
+            let by = pushes.get(placing.crossing(of, crossed)).map_or(0.0, |by| by[of.0]);
+            (placing.station(of, crossed), by)
+        };
+        let mut passed: Vec<_> = (from.min(to) + 1..from.max(to)).map(passed).collect();
+        if from > to {
+            passed.reverse();
+        }
+        if one.side == two.side {
+            for (station, by) in &mut passed {
+                let share = (station.at - one.at) / (two.at - one.at);
+                station.z = one.z + share * (two.z - one.z) + *by;
+            }
+        }
+        Self { one, two, passed }
+    }
+
+    /// The pairs of neighbouring stations of a thread that stays on its side.
+    fn pairs(&self) -> impl Iterator<Item = [&Station; 2]> {
+        let stations = || self.passed.iter().map(|(station, _)| station);
+        std::iter::once(&self.one).chain(stations()).zip(stations().chain([&self.two])).map(Into::into)
+    }
+
+    /// Calls `stop` with the control points between the two crossings. `changes` says whether the
+    /// thread changes sides before the first and after the second.
+    pub(super) fn stops(&self, changes: [bool; 2], stop: &mut impl FnMut(Stop)) {
+        if self.one.side != self.two.side {
+            Change::new(&self.one, &self.two, changes).points().for_each(|at| stop(self.push(at)));
+            return;
+        }
+        let last = self.passed.len();
+        for (number, [from, to]) in self.pairs().enumerate() {
+            float(from, to, [changes[0] && number == 0, changes[1] && number == last]).for_each(&mut *stop);
+            if number < last {
+                stop(to.stop());
+            }
+        }
+    }
+
+    /// Calls `stop` with the control points from the first crossing to the place `edge`, where the
+    /// thread is cut off. `changes` says whether the thread changes sides before the first
+    /// crossing.
+    pub(super) fn until(&self, edge: f64, changes: bool, stop: &mut impl FnMut(Stop)) {
+        if self.one.side != self.two.side {
+            Change::new(&self.one, &self.two, [changes, false])
+                .until(edge)
+                .for_each(|at| stop(self.push(at)));
+            return;
+        }
+        let is_before = |along: f64| (along - self.one.at) * (edge - along) > 0.0;
+        self.stops([changes, false], &mut |at| {
+            if is_before(at.along) {
+                stop(at);
+            }
+        });
+        let pair = self.pairs().find(|[_, to]| !is_before(to.at)).unwrap_or([&self.one, &self.two]);
+        stop(pair[0].stop().towards(&pair[1].stop(), edge));
+    }
+
+    /// The path of the thread at `along`.
+    pub(super) fn passing(&self, along: f64) -> Passing {
+        if self.one.side != self.two.side {
+            let way = Change::new(&self.one, &self.two, [false; 2]).passing(along);
+            return Passing { z: way.z + self.pushed_at(along), ..way };
+        }
+        let is_before = |at: f64| (at - self.one.at) * (along - at) > 0.0;
+        let pair = self.pairs().find(|[_, to]| !is_before(to.at)).unwrap_or([&self.one, &self.two]);
+        let [run, rise] = [pair[1].at - pair[0].at, pair[1].z - pair[0].z];
+        Passing { z: pair[0].z + (along - pair[0].at) / run * rise, slope: (rise / run).abs() }
+    }
+
+    /// A control point of a change of sides, pushed.
+    fn push(&self, stop: Stop) -> Stop {
+        Stop { z: stop.z + self.pushed_at(stop.along), ..stop }
+    }
+
+    /// How far a thread that changes sides is pushed up at `along`, mm. A push fades to both sides,
+    /// and is 0 at the nearer of the two crossings.
+    fn pushed_at(&self, along: f64) -> f64 {
+        let at = |(station, by): &(Station, f64)| {
+            let reach = (station.at - self.one.at).abs().min((self.two.at - station.at).abs());
+            let share = ((along - station.at) / reach).abs();
+            if share < 1.0 { by * (FRAC_PI_2 * share).cos().powi(2) } else { 0.0 }
+        };
+        self.passed.iter().map(at).sum()
+    }
+}

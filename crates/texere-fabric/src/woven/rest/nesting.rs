@@ -10,7 +10,6 @@ use texere_core::crossings::ThreadState;
 
 use super::path::Passing;
 use super::resting::{BEYOND, Of, Placing};
-use super::span::Span;
 
 /// The most rounds of pushes. A push changes the slope of a thread, and moves it at the crossings
 /// beside it.
@@ -58,7 +57,7 @@ impl Placing<'_> {
             let met = self.met(of, repeat[1 - set]);
             let mut passings = Vec::new();
             for stops in met.windows(2) {
-                let span = Span::new(self, of, [stops[0], stops[1]], pushes);
+                let span = self.span(of, [stops[0], stops[1]], pushes);
                 let crossed = (stops[0] + 1).max(BEYOND)..stops[1].min(BEYOND + repeat[1 - set]);
                 let passing =
                     |crossed| (self.crossing(of, crossed), span.passing(self.station(of, crossed).at));

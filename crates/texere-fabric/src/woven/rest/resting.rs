@@ -280,7 +280,7 @@ impl<'a> Placing<'a> {
             stop(here.stop());
             let next = station(step + 1);
             let changes = [before.side != here.side, station(step + 2).side != next.side];
-            self.span(of, [crossed(step), crossed(step + 1)]).stops(changes, &mut stop);
+            self.span(of, [crossed(step), crossed(step + 1)], &self.pushes).stops(changes, &mut stop);
             (before, here) = (here, next);
         }
         stop(here.stop());
@@ -298,12 +298,21 @@ impl<'a> Placing<'a> {
         let [inner, here, beyond] = steps.map(|step| met[step]);
         let edge = if upper { self.sets[1 - of.0].extent } else { 0.0 };
         let changes = self.station(of, inner).side != self.station(of, here).side;
-        self.span(of, [here, beyond]).until(edge, changes, stop);
+        self.span(of, [here, beyond], &self.pushes).until(edge, changes, stop);
     }
 
-    /// The way of a thread between two crossed threads that it bends round.
-    fn span(&self, of: Of, stops: [usize; 2]) -> Span {
-        Span::new(self, of, stops, &self.pushes)
+    /// The way of a thread from a crossed thread that it bends round to the next one. `pushes` are
+    /// those of all crossings of the repeat, or none.
+    pub(super) fn span(&self, of: Of, [from, to]: [usize; 2], pushes: &[[f64; 2]]) -> Span {
+        let passed = |crossed| {
+            let by = pushes.get(self.crossing(of, crossed)).map_or(0.0, |by| by[of.0]);
+            (self.station(of, crossed), by)
+        };
+        let mut passed: Vec<_> = (from.min(to) + 1..from.max(to)).map(passed).collect();
+        if from > to {
+            passed.reverse();
+        }
+        Span::new([from, to].map(|crossed| self.station(of, crossed)), passed)
     }
 
     /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the

@@ -3,7 +3,6 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::path::{Change, Passing, Station, float};
-use super::resting::{Of, Placing};
 use super::stop::Stop;
 
 /// The way of a thread between two crossings at which it bends.
@@ -17,18 +16,9 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// The way of a thread from a crossed thread to another one, both counted from the first of the
-    /// threads beyond the edge. `pushes` are those of all crossings of the repeat, or empty.
-    pub(super) fn new(placing: &Placing<'_>, of: Of, [from, to]: [usize; 2], pushes: &[[f64; 2]]) -> Self {
-        let [one, two] = [from, to].map(|crossed| placing.station(of, crossed));
-        let passed = |crossed| {
-            let by = pushes.get(placing.crossing(of, crossed)).map_or(0.0, |by| by[of.0]);
-            (placing.station(of, crossed), by)
-        };
-        let mut passed: Vec<_> = (from.min(to) + 1..from.max(to)).map(passed).collect();
-        if from > to {
-            passed.reverse();
-        }
+    /// The way between two crossings. `passed` are the crossings between them, in order, and how
+    /// far the thread is pushed up at each, mm.
+    pub(super) fn new([one, two]: [Station; 2], mut passed: Vec<(Station, f64)>) -> Self {
         if one.side == two.side {
             for (station, by) in &mut passed {
                 let share = (station.at - one.at) / (two.at - one.at);

@@ -57,7 +57,8 @@ impl Placing<'_> {
             let met = self.met(of, repeat[1 - set]);
             let mut passings = Vec::new();
             for stops in met.windows(2) {
-                let span = self.span(of, [stops[0], stops[1]], pushes);
+                let stops = [stops[0], stops[1]];
+                let span = self.span(of, stops, stops.map(|stop| self.station(of, stop)), pushes);
                 let crossed = (stops[0] + 1).max(BEYOND)..stops[1].min(BEYOND + repeat[1 - set]);
                 let passing =
                     |crossed| (self.crossing(of, crossed), span.passing(self.station(of, crossed).at));

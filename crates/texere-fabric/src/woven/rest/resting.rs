@@ -280,7 +280,8 @@ impl<'a> Placing<'a> {
             stop(here.stop());
             let next = station(step + 1);
             let changes = [before.side != here.side, station(step + 2).side != next.side];
-            self.span(of, [crossed(step), crossed(step + 1)], &self.pushes).stops(changes, &mut stop);
+            self.span(of, [crossed(step), crossed(step + 1)], [here, next], &self.pushes)
+                .stops(changes, &mut stop);
             (before, here) = (here, next);
         }
         stop(here.stop());
@@ -295,15 +296,21 @@ impl<'a> Placing<'a> {
     fn leave(&self, of: Of, upper: bool, met: &[usize], stop: &mut impl FnMut(Stop)) {
         let last = met.len() - 1;
         let steps = if upper { [last - 2, last - 1, last] } else { [2, 1, 0] };
-        let [inner, here, beyond] = steps.map(|step| met[step]);
+        let [inner, here, beyond] = steps.map(|step| self.station(of, met[step]));
         let edge = if upper { self.sets[1 - of.0].extent } else { 0.0 };
-        let changes = self.station(of, inner).side != self.station(of, here).side;
-        self.span(of, [here, beyond], &self.pushes).until(edge, changes, stop);
+        let span = self.span(of, [met[steps[1]], met[steps[2]]], [here, beyond], &self.pushes);
+        span.until(edge, inner.side != here.side, stop);
     }
 
-    /// The way of a thread from a crossed thread that it bends round to the next one. `pushes` are
-    /// those of all crossings of the repeat, or none.
-    pub(super) fn span(&self, of: Of, [from, to]: [usize; 2], pushes: &[[f64; 2]]) -> Span {
+    /// The way of a thread from a crossed thread that it bends round to the next one, with its
+    /// `stations` at the two. `pushes` are those of all crossings of the repeat, or none.
+    pub(super) fn span(
+        &self,
+        of: Of,
+        [from, to]: [usize; 2],
+        stations: [Station; 2],
+        pushes: &[[f64; 2]],
+    ) -> Span {
         let passed = |crossed| {
             let by = pushes.get(self.crossing(of, crossed)).map_or(0.0, |by| by[of.0]);
             (self.station(of, crossed), by)
@@ -312,7 +319,7 @@ impl<'a> Placing<'a> {
         if from > to {
             passed.reverse();
         }
-        Span::new([from, to].map(|crossed| self.station(of, crossed)), passed)
+        Span::new(stations, passed)
     }
 
     /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the

@@ -34,6 +34,17 @@ impl Span {
         std::iter::once(&self.one).chain(stations()).zip(stations().chain([&self.two])).map(Into::into)
     }
 
+    /// Whether a place lies between the first crossing and the place `along`.
+    fn is_before(&self, place: f64, along: f64) -> bool {
+        (place - self.one.at) * (along - place) > 0.0
+    }
+
+    /// The neighbouring stations that the place `along` lies between.
+    fn pair_at(&self, along: f64) -> [&Station; 2] {
+        let mut pairs = self.pairs();
+        pairs.find(|[_, to]| !self.is_before(to.at, along)).unwrap_or([&self.one, &self.two])
+    }
+
     /// Calls `stop` with the control points between the two crossings. `changes` says whether the
     /// thread changes sides before the first and after the second.
     pub(super) fn stops(&self, changes: [bool; 2], stop: &mut impl FnMut(Stop)) {
@@ -60,13 +71,12 @@ impl Span {
                 .for_each(|at| stop(self.push(at)));
             return;
         }
-        let is_before = |along: f64| (along - self.one.at) * (edge - along) > 0.0;
         self.stops([changes, false], &mut |at| {
-            if is_before(at.along) {
+            if self.is_before(at.along, edge) {
                 stop(at);
             }
         });
-        let pair = self.pairs().find(|[_, to]| !is_before(to.at)).unwrap_or([&self.one, &self.two]);
+        let pair = self.pair_at(edge);
         stop(pair[0].stop().towards(&pair[1].stop(), edge));
     }
 
@@ -76,8 +86,7 @@ impl Span {
             let way = Change::new(&self.one, &self.two, [false; 2]).passing(along);
             return Passing { z: way.z + self.pushed_at(along), ..way };
         }
-        let is_before = |at: f64| (at - self.one.at) * (along - at) > 0.0;
-        let pair = self.pairs().find(|[_, to]| !is_before(to.at)).unwrap_or([&self.one, &self.two]);
+        let pair = self.pair_at(along);
         let [run, rise] = [pair[1].at - pair[0].at, pair[1].z - pair[0].z];
         Passing { z: pair[0].z + (along - pair[0].at) / run * rise, slope: (rise / run).abs() }
     }

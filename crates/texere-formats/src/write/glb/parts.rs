@@ -10,7 +10,7 @@ use crate::write::WriteError;
 /// The most bytes of different parts, each with its vertices and [`PART_BYTES`]. The file is made
 /// in memory, because its document comes first and counts the parts. The Jacquard cloth of
 /// `designs/paper/figure-7a.toml`, 2,880 by 1,840 threads, takes 9 MB of them.
-pub(super) const BYTES_MAX: u64 = 1 << 28;
+const BYTES_MAX: u64 = 1 << 28;
 
 /// The bytes that a part takes besides its vertices: among the parts and in the document, most of
 /// them in the document's text.

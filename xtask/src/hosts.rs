@@ -4,8 +4,9 @@
 use std::fs;
 use std::path::Path;
 
+use crate::build::Build;
 use crate::install::install;
-use crate::steps::Steps;
+use crate::steps::{Steps, root};
 
 /// Debian's packages that build and run the programs in C, C++ and C#.
 pub(crate) const PACKAGES: [&str; 7] =
@@ -13,15 +14,16 @@ pub(crate) const PACKAGES: [&str; 7] =
 
 /// Installs the library to a folder outside the repository, builds the examples against it, runs
 /// them, and compares their meshes with those that the program writes.
-pub(crate) fn check(steps: &mut Steps) {
+pub(crate) fn check(steps: &mut Steps, build: Build) {
     if !cfg!(target_os = "linux") {
         println!("\nprograms that link the C library: left out, this is not Linux");
         return;
     }
     let folder = std::env::temp_dir().join(format!("texere-hosts-{}", std::process::id()));
     let prefix = folder.join("prefix");
-    install(steps, &prefix);
-    let places = [("PREFIX", prefix), ("OUT", folder.clone())];
+    install(steps, &prefix, build);
+    let program = root().join(build.folder()).join("texere");
+    let places = [("PREFIX", prefix), ("OUT", folder.clone()), ("TEXERE", program)];
     let places = places.each_ref().map(|(name, place)| (*name, place.to_string_lossy()));
     let places = places.each_ref().map(|(name, place)| (*name, &**place));
     steps.run("programs that link the C library", &["sh", "xtask/src/hosts/run.sh"], &places);

@@ -8,6 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::build::Build;
 use crate::steps::{Steps, command, root};
 
 /// Builds the library and lays it under the prefix that `arguments` name.
@@ -21,25 +22,21 @@ pub(crate) fn run(steps: &mut Steps, arguments: &[String]) {
     if !cfg!(target_os = "linux") {
         return steps.fail("cargo xtask install knows the libraries of Linux alone".into());
     }
-    install(steps, Path::new(prefix));
+    install(steps, Path::new(prefix), Build::Released);
     if steps.succeed() {
         println!("\npkg-config --cflags --libs texere, with PKG_CONFIG_PATH={prefix}/lib/pkgconfig");
     }
 }
 
 /// Builds the library and lays it under `prefix`.
-pub(crate) fn install(steps: &mut Steps, prefix: &Path) {
-    // The `texere` program is built in the same call. If each were built by itself, wgpu would have
-    // other features, and each build would compile it again after the other.
-    let packages = ["--package", "texere-capi", "--package", "texere-cli"];
-    let features = ["--no-default-features", "--features", "texere-capi/default"];
-    let build = [&["build", "--release", "--locked"][..], &packages, &features].concat();
-    steps.cargo("the C library", &build, &[]);
+pub(crate) fn install(steps: &mut Steps, prefix: &Path, build: Build) {
+    build.libraries(steps);
     let assembly = assembly(steps);
     if !steps.succeed() {
         return;
     }
-    let laid = std::path::absolute(prefix).and_then(|prefix| lay(&prefix, assembly));
+    let laid =
+        std::path::absolute(prefix).and_then(|prefix| lay(&prefix, &root().join(build.folder()), assembly));
     if let Err(error) = laid {
         steps.fail(format!("{}: {error}", prefix.display()));
     }
@@ -84,9 +81,10 @@ fn abi(header: &str) -> io::Result<&str> {
     number.ok_or_else(|| io::Error::other("the header has no TEXERE_ABI"))
 }
 
-fn lay(prefix: &Path, assembly: &[&str]) -> io::Result<()> {
+/// Lays the libraries in the folder `built` and all that belongs to them under `prefix`.
+fn lay(prefix: &Path, built: &Path, assembly: &[&str]) -> io::Result<()> {
     let (include, lib) = (prefix.join("include"), prefix.join("lib"));
-    let (headers, built) = (root().join("crates/texere-capi/include"), root().join("target/release"));
+    let headers = root().join("crates/texere-capi/include");
     let header = fs::read_to_string(headers.join("texere.h"))?;
     let abi = abi(&header)?;
     let fill = |text: &str| {

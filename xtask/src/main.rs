@@ -2,6 +2,7 @@
 //! `cargo xtask mutate` every week. Other tasks measure, draw pictures, and install.
 
 mod bench_tables;
+mod build;
 mod bundle;
 mod demo;
 mod hosts;
@@ -18,6 +19,7 @@ mod workspace;
 use std::collections::BTreeSet;
 use std::process::ExitCode;
 
+use build::Build;
 use demo::vulkan;
 use steps::{Steps, root};
 
@@ -39,12 +41,12 @@ fn main() -> ExitCode {
             check(&mut steps);
             install(&mut steps, "valgrind", &["valgrind"]);
             instructions::check(&mut steps);
-            demo::demo(&mut steps);
-            programs(&mut steps);
+            demo::demo(&mut steps, Build::Tested);
+            programs(&mut steps, Build::Tested);
         }
-        Some("hosts") => programs(&mut steps),
+        Some("hosts") => programs(&mut steps, Build::Released),
         Some("python") => python(&mut steps),
-        Some("demo") => demo::demo(&mut steps),
+        Some("demo") => demo::demo(&mut steps, Build::Released),
         Some("gallery") => demo::gallery(&mut steps),
         Some("bench-tables") => {
             install(&mut steps, "software devices", &SOFTWARE_DEVICES);
@@ -144,16 +146,17 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles and tests the package `texere` without features, and then with one feature at a time.
-/// Counts the packages that it links with its default features.
+/// Compiles the package `texere` without features, and then with one feature at a time. Tests it
+/// without features. Counts the packages that it links with its default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "obj", "pictures", "ply", "stl", "texgen", "toml", "wif"]
     {
         let name = format!("the library, features: {}", if feature.is_empty() { "none" } else { feature });
         let package = ["--package", "texere", "--locked", "--no-default-features", "--features", feature];
         steps.cargo(&name, &[&["clippy"][..], &package, &["--", "-D", "warnings"]].concat(), &[]);
-        steps.cargo(&name, &[&["test", "--lib"][..], &package].concat(), &[]);
     }
+    let bare = ["test", "--lib", "--package", "texere", "--locked", "--no-default-features"];
+    steps.cargo("the library without features", &bare, &[]);
     let tree =
         ["tree", "--package", "texere", "--edges", "normal", "--prefix", "none", "--no-dedupe", "--locked"];
     let Some(tree) = steps.output("cargo", &tree, &[]) else { return };
@@ -166,10 +169,10 @@ fn features(steps: &mut Steps) {
 }
 
 /// Builds and runs programs in other languages that link the library. One of them makes a picture.
-fn programs(steps: &mut Steps) {
+fn programs(steps: &mut Steps, build: Build) {
     vulkan::install(steps);
     install(steps, "compilers", &hosts::PACKAGES);
-    hosts::check(steps);
+    hosts::check(steps, build);
 }
 
 /// Runs the checks that are no tests.
@@ -190,7 +193,8 @@ fn check(steps: &mut Steps) {
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
     }
     if !steps.succeeds("cargo", &["deny", "--version"]) {
-        steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked"], &[]);
+        // Without optimisation, because it is compiled for much longer than it runs.
+        steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked", "--debug"], &[]);
     }
     // Advisories need a database that is fetched from the net at run time; the weekly workflow
     // checks them.

@@ -1,6 +1,7 @@
 //! The gallery: pictures of every design.
 
 use super::{render, vulkan};
+use crate::build::Build;
 use crate::steps::Steps;
 
 /// A view: its name in the picture's file name, and its options.
@@ -67,7 +68,7 @@ pub(crate) fn gallery(steps: &mut Steps) {
         for (view, options) in sides.iter().chain(views) {
             let picture = format!("{FOLDER}/{name}-{view}.png");
             let size: &[&str] = if options.contains(&"--size") { &[] } else { &["--size", "800x600"] };
-            render(steps, &picture, &[&[&path, "-o", &picture], *options, size].concat());
+            render(steps, Build::Released, &picture, &[&[&path, "-o", &picture], *options, size].concat());
         }
     }
     for name in PAPER {

@@ -3,6 +3,7 @@
 mod gallery;
 pub(crate) mod vulkan;
 
+use crate::build::Build;
 use crate::steps::Steps;
 
 pub(crate) use gallery::gallery;
@@ -11,19 +12,33 @@ pub(crate) use gallery::gallery;
 const DEMO: &str = "target/demo.png";
 
 /// Draws a close-up of denim at rest, on any device of this machine that draws.
-pub(crate) fn demo(steps: &mut Steps) {
+pub(crate) fn demo(steps: &mut Steps, build: Build) {
     vulkan::install(steps);
-    render(steps, "the demo", &["designs/denim.toml", "-o", DEMO, "--view", "close-up", "--sides", "16"]);
+    render(
+        steps,
+        build,
+        "the demo",
+        &["designs/denim.toml", "-o", DEMO, "--view", "close-up", "--sides", "16"],
+    );
     if steps.succeed() {
         println!("\nThe picture is {DEMO}. There are more in docs/gallery.");
     }
 }
 
 /// Draws a picture with round, smooth yarns.
-fn render(steps: &mut Steps, name: &str, args: &[&str]) {
+fn render(steps: &mut Steps, build: Build, name: &str, args: &[&str]) {
     let smooth: &[&str] =
         if args.contains(&"--sides") { &[] } else { &["--sides", "12", "--subdivisions", "4"] };
-    // The window is left out, because it takes as long to build as everything else.
-    let program = ["run", "--quiet", "--release", "--package", "texere-cli", "--no-default-features", "--"];
-    steps.cargo(name, &[&program, &["render"][..], args, smooth].concat(), &[]);
+    let args = [&["render"][..], args, smooth].concat();
+    match build {
+        Build::Released => {
+            // The window is left out, because it takes as long to build as everything else.
+            let run = ["run", "--quiet", "--release", "--package", "texere-cli", "--no-default-features"];
+            steps.cargo(name, &[&run[..], &["--"], &args].concat(), &[]);
+        }
+        Build::Tested => {
+            build.libraries(steps);
+            steps.run(name, &[&[&*format!("{}/texere", build.folder())], &args[..]].concat(), &[]);
+        }
+    }
 }

@@ -1,7 +1,7 @@
 # Builds the examples below PREFIX as its users do, with the system's compilers and nothing else, and runs them in the
-# folder OUT. They make what the program of the repository makes, to the bit.
+# folder OUT. They make what the program TEXERE makes, to the bit.
 set -eu
-examples=$PREFIX/share/texere/examples designs=$PWD/designs texere=$PWD/target/release/texere
+examples=$PREFIX/share/texere/examples designs=$PWD/designs
 capi=$PWD/crates/texere-capi kept=$PWD/xtask/src/hosts/kept.supp
 export PKG_CONFIG_PATH="$PREFIX/lib/pkgconfig"
 cd "$OUT"
@@ -45,7 +45,7 @@ LD_LIBRARY_PATH="$PREFIX/lib" mono wrappers.exe
 LD_LIBRARY_PATH="$PREFIX/lib" mono classes.exe wgpu
 
 for design in poplin jersey tricot; do
-    "$texere" mesh "$designs/$design.toml" --device cpu -o $design.ply
+    "$TEXERE" mesh "$designs/$design.toml" --device cpu -o $design.ply
     ./mesh "$designs/$design.toml" cpu mesh.ply
     cmp $design.ply mesh.ply
 done
@@ -55,8 +55,8 @@ watched ./yarns two.yarns
 watched obj/obj "$designs/tricot.toml" cpu tricot.obj
 obj/obj_static "$designs/tricot.toml" cpu static.obj
 cmp tricot.obj static.obj
-"$texere" mesh "$designs/herringbone.wif" --device cpu -o herringbone.ply
-"$texere" mesh "$designs/poplin.toml" --no-settle --device cpu -o placed.ply
+"$TEXERE" mesh "$designs/herringbone.wif" --device cpu -o herringbone.ply
+"$TEXERE" mesh "$designs/poplin.toml" --no-settle --device cpu -o placed.ply
 watched ./edit "$designs/poplin.toml" cpu undone.bin
 export LD_LIBRARY_PATH="$PREFIX/lib" MONO_PATH="$assembly"
 mono weave.exe "$designs/herringbone.wif" cpu herringbone.bin

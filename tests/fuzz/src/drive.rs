@@ -31,7 +31,17 @@ pub enum Outcome {
     Taken,
 }
 
-/// Reads the design in `path`, and goes on with it as far as its size allows.
+/// How far an accepted input goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// It is written again, and its yarns are made.
+    Yarns,
+    /// Its draft is drawn as well, mesh, measures and clearance of its yarns are made, and the
+    /// yarns begin to settle.
+    Rest,
+}
+
+/// Reads the design in `path`, and goes on with it as far as `depth` says and its size allows.
 ///
 /// # Panics
 ///
@@ -40,15 +50,15 @@ pub enum Outcome {
 /// otherwise than they were read, the number of points was counted wrongly, a mesh can't be made or
 /// has numbers that are not finite, or a clearance can't be measured.
 #[must_use]
-pub fn drive(path: &Path) -> Outcome {
+pub fn drive(path: &Path, depth: Depth) -> Outcome {
     if path.extension().is_some_and(|ending| ending == "yarns") {
-        return saved(path);
+        return saved(path, depth);
     }
     if path
         .extension()
         .is_some_and(|ending| ["bcc", "obj", "usda", "tg3"].iter().any(|known| ending == *known))
     {
-        return curves(path);
+        return curves(path, depth);
     }
     let mut design = match read(path) {
         Ok(design) => design,
@@ -63,8 +73,8 @@ pub fn drive(path: &Path) -> Outcome {
         if size[0].saturating_mul(size[1]) > CROSSINGS {
             return Outcome::Large;
         }
-        sinks(&design);
-        return finished(&design, cloth(&design.structure));
+        sinks(&design, depth);
+        return finished(&design, cloth(&design.structure, depth), depth);
     }
     let Some(woven) = design.structure.woven() else { return Outcome::Large };
     let (woven, draft) = (woven.cloth(), woven.draft());
@@ -74,17 +84,18 @@ pub fn drive(path: &Path) -> Outcome {
     if let Some(draft) = draft {
         assert_eq!(draft.drawdown().as_ref(), Ok(woven.drawdown()), "a draft that is another cloth's");
     }
-    sinks(&design);
-    let outcome = finished(&design, cloth(&design.structure));
+    sinks(&design, depth);
+    let outcome = finished(&design, cloth(&design.structure, depth), depth);
     // Replaces the section. If the design accepts it, makes the cloth once more.
     if design.structure.set_section(Section::Ellipse { aspect: 1.5 }).is_ok() {
-        let _ = cloth(&design.structure);
+        let _ = cloth(&design.structure, depth);
     }
     outcome
 }
 
-/// Writes all that `convert` and `draft` write of a design, and drops what is written.
-fn sinks(design: &Design) {
+/// Writes all that `convert` and, if `depth` says so, `draft` write of a design, and drops what is
+/// written.
+fn sinks(design: &Design, depth: Depth) {
     let told = |outcome: Result<(), WriteError>| {
         if let Err(error) = outcome {
             let _ = chain(&error);
@@ -93,6 +104,9 @@ fn sinks(design: &Design) {
     told(write::toml_to(design, sink()).map(drop));
     told(write::wif_to(design, sink()).map(drop));
     told(write::knitout_to(design, sink()).map(drop));
+    if depth == Depth::Yarns {
+        return;
+    }
     for side in [Side::Face, Side::Back] {
         match &design.structure {
             Structure::Woven(woven) => {
@@ -123,11 +137,11 @@ const STRETCHING: u32 = 100;
 /// The share of the progress at which stretching is done.
 const STRETCHED: f64 = 0.5;
 
-/// Begins to settle the cloth as its design says, and returns `outcome`. An error has to name the
-/// design's file.
-fn finished(design: &Design, outcome: Outcome) -> Outcome {
+/// Begins to settle the cloth as its design says, if `depth` says so, and returns `outcome`. An
+/// error has to name the design's file.
+fn finished(design: &Design, outcome: Outcome, depth: Depth) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
-    if outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
+    if depth == Depth::Yarns || outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
         return outcome;
     }
     let mut design = design.clone();
@@ -164,7 +178,7 @@ fn rested(design: Design) -> Result<Cloth, Refusal> {
 }
 
 /// Reads saved yarns, writes them again, and makes their mesh and their clearance.
-fn saved(path: &Path) -> Outcome {
+fn saved(path: &Path, depth: Depth) -> Outcome {
     let SavedYarns { yarns, boundary } = match read::yarns(path) {
         Ok(saved) => saved,
         Err(error) => return Outcome::Refused(chain(&error)),
@@ -175,12 +189,12 @@ fn saved(path: &Path) -> Outcome {
         std::fs::read(path).is_ok_and(|file| file == again),
         "a file that is another one when it is written again"
     );
-    meshed(&yarns)
+    meshed(&yarns, depth)
 }
 
 /// Reads curves, writes them again, and makes their mesh and their clearance. Curves that are
 /// written again are the same when they are read again.
-fn curves(path: &Path) -> Outcome {
+fn curves(path: &Path, depth: Depth) -> Outcome {
     let given = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.2) };
     // Files of USD and TexGen say both themselves.
     let says_both = path.extension().is_some_and(|ending| ending == "usda" || ending == "tg3");
@@ -198,11 +212,11 @@ fn curves(path: &Path) -> Outcome {
         places(&read) == places(&yarns) && read.layout().offsets() == yarns.layout().offsets(),
         "curves that are others when they are read again"
     );
-    meshed(&yarns)
+    meshed(&yarns, depth)
 }
 
-/// Makes yarns, mesh, measures and clearance of a small cloth.
-fn cloth(structure: &Structure) -> Outcome {
+/// Makes the yarns of a small cloth and, if `depth` says so, their mesh, measures and clearance.
+fn cloth(structure: &Structure, depth: Depth) -> Outcome {
     let yarns = match structure.yarns() {
         Ok(yarns) => yarns,
         Err(error) => return Outcome::NoYarns(chain(&error)),
@@ -211,17 +225,20 @@ fn cloth(structure: &Structure) -> Outcome {
         let counted = woven.cloth().point_count();
         assert_eq!(counted, yarns.points().len() as u64, "points that were not counted");
     }
-    let outcome = meshed(&yarns);
-    if outcome == Outcome::Taken {
+    let outcome = meshed(&yarns, depth);
+    if depth == Depth::Rest && outcome == Outcome::Taken {
         let _ = structure.measures(&yarns);
     }
     outcome
 }
 
-/// Makes mesh and clearance of a few yarns.
-fn meshed(yarns: &Yarns) -> Outcome {
+/// Makes mesh and clearance of a few yarns, if `depth` says so.
+fn meshed(yarns: &Yarns, depth: Depth) -> Outcome {
     if yarns.points().len() > POINTS {
         return Outcome::Large;
+    }
+    if depth == Depth::Yarns {
+        return Outcome::Taken;
     }
     let corners = yarns.layout().sections().iter().find_map(|section| match section {
         Section::Polygon(corners) => Some(corners.len() as u32),

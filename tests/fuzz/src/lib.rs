@@ -18,7 +18,7 @@ mod watch;
 mod wpo_bytes;
 mod yarn_bytes;
 
-pub use drive::{Outcome, drive};
+pub use drive::{Depth, Outcome, drive};
 pub use watch::fuzz;
 
 /// A reader that gets mutated inputs.

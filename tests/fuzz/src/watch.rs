@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use peak_alloc::PeakAlloc;
 
-use crate::{Input, Outcome, Reader, drive};
+use crate::{Depth, Input, Outcome, Reader, drive};
 
 /// Time that an input may take: ten times that of the slowest one, so that only inputs that hang
 /// are caught.
@@ -16,6 +16,10 @@ const LIMIT: Duration = Duration::from_secs(20);
 
 /// The most memory that the whole program may take while it handles an input, MiB.
 const MEMORY_MIB: f32 = 1024.0;
+
+/// One input in this many goes on to mesh, clearance and rest, which take ten times as long as all
+/// before. All others end at their yarns.
+const DEEP: u64 = 8;
 
 /// Runs the inputs with these numbers. Returns the number of inputs that were accepted and passed
 /// through every step.
@@ -39,7 +43,8 @@ pub fn fuzz(reader: Reader, numbers: std::ops::Range<u64>, heap: &PeakAlloc, kep
         let input = Input::new(reader, number);
         let path = write(&input, folder.path());
         heap.reset_peak_usage();
-        let outcome = catch_unwind(AssertUnwindSafe(|| drive(&path)));
+        let depth = if number.is_multiple_of(DEEP) { Depth::Rest } else { Depth::Yarns };
+        let outcome = catch_unwind(AssertUnwindSafe(|| drive(&path, depth)));
         let peak = heap.peak_usage_as_mb();
         let failed = match outcome {
             Err(_) => Some("panics".to_owned()),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use texere_fuzz::{Outcome, drive};
+use texere_fuzz::{Depth, Outcome, drive};
 
 #[test]
 fn what_has_failed_once_does_not_again() {
@@ -16,7 +16,7 @@ fn what_has_failed_once_does_not_again() {
             .map(|file| entry.join(file))
             .into_iter()
             .find(|file| file.exists());
-        let outcome = drive(&design.unwrap());
+        let outcome = drive(&design.unwrap(), Depth::Rest);
         match name.split('-').next() {
             Some("refused") => assert!(matches!(outcome, Outcome::Refused(_)), "{name}: {outcome:?}"),
             Some("taken") => assert_eq!(outcome, Outcome::Taken, "{name}"),

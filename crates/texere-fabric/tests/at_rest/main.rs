@@ -5,6 +5,7 @@
 
 mod layers;
 mod progress;
+mod selvedge;
 mod stretch;
 mod surfaces;
 

@@ -9,6 +9,7 @@ mod resting;
 mod span;
 mod stop;
 mod stretch;
+mod turn;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

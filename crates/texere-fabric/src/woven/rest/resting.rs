@@ -13,7 +13,8 @@ use super::path::Station;
 use super::problem::{Problem, gaps};
 use super::span::Span;
 use super::stop::{CHANGE_POINTS, Stop};
-use crate::woven::selvedge::{self, TURN_POINTS};
+use super::turn::{TURN_POINTS, Turn};
+use crate::woven::selvedge;
 use crate::woven::yarns::{Pass, Pen};
 use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
@@ -234,8 +235,11 @@ impl<'a> Placing<'a> {
         let met = self.met(of, count);
         let mut points = met.len() - 2 + if pass.turns() { TURN_POINTS } else { 0 };
         let sides: Vec<f64> = met.iter().map(|&crossed| self.station(of, crossed).side).collect();
-        for (near, stops) in sides.windows(4).zip(met[1..].windows(2)) {
-            let [before, changes, after] = [0, 1, 2].map(|at| near[at] != near[at + 1]);
+        let turns = if back { [!cut[1], !cut[0]] } else { cut.map(|cut| !cut) };
+        for (step, (near, stops)) in sides.windows(4).zip(met[1..].windows(2)).enumerate() {
+            let [mut before, changes, mut after] = [0, 1, 2].map(|at| near[at] != near[at + 1]);
+            before |= turns[0] && step == 0;
+            after |= turns[1] && step + 4 == met.len();
             points += if changes {
                 CHANGE_POINTS
             } else {
@@ -253,9 +257,6 @@ impl<'a> Placing<'a> {
     /// Calls `write` with each control point of a pass and its source.
     fn lay(&self, pass: Pass, write: &mut impl FnMut(ControlPoint, u32)) {
         let (of, cut, back, count) = self.order(pass);
-        if let (Pass::Pick(pick, _), true) = (pass, pass.turns()) {
-            self.turn(pick).into_iter().for_each(|point| write(point, NO_CROSSING));
-        }
         let ends = self.cloth.warp().len();
         let mut stop = |stop: Stop| {
             let [along, across, z] = [stop.along, stop.across, stop.z].map(|value| value as f32);
@@ -266,6 +267,9 @@ impl<'a> Placing<'a> {
             });
             write(ControlPoint { x, y, z, halves: Halves::new(halves[0], halves[1]) }, source);
         };
+        if let (Pass::Pick(pick, _), true) = (pass, pass.turns()) {
+            self.turn(pick).stops().for_each(&mut stop);
+        }
         let met = self.met(of, count);
         if cut[0] {
             let mut lead = Vec::new();
@@ -279,7 +283,12 @@ impl<'a> Placing<'a> {
         for step in 1..last - 1 {
             stop(here.stop());
             let next = station(step + 1);
-            let changes = [before.side != here.side, station(step + 2).side != next.side];
+            let mut changes = [before.side != here.side, station(step + 2).side != next.side];
+            if here.side == next.side {
+                // A float leads into a turn as it leads into a change of sides.
+                changes[0] |= step == 1 && !cut[0];
+                changes[1] |= step == last - 2 && !cut[1];
+            }
             self.span(of, [crossed(step), crossed(step + 1)], [here, next], &self.pushes)
                 .stops(changes, &mut stop);
             (before, here) = (here, next);
@@ -322,22 +331,19 @@ impl<'a> Placing<'a> {
         Span::new(stations, passed)
     }
 
-    /// The turn from the pick before to `pick`. It begins beyond the edge end by at least half the
-    /// sum of the widths of end and pick.
-    fn turn(&self, pick: usize) -> [ControlPoint; TURN_POINTS] {
+    /// The turn from the pick before to `pick`.
+    fn turn(&self, pick: usize) -> Turn {
         let right = selvedge::runs_left(pick, self.cloth.selvedge());
-        let ends = self.cloth.warp().len();
-        let (crossed, outwards) = if right { (BEYOND + ends - 1, 1.0) } else { (BEYOND, -1.0) };
-        let [from, to] = [pick - 1, pick].map(|pick| self.station((1, pick), crossed));
-        let widest = from.drawn[0].max(to.drawn[0]);
-        let touching = from.crossed[0].max(to.crossed[0]) + widest;
-        let apart = (to.across - from.across).abs();
-        let edge = if right { from.at.max(to.at) } else { from.at.min(to.at) };
-        let x = (edge + outwards * touching.max(apart / 4.0)) as f32;
-        let [from, to] = [from, to].map(|at| {
-            let [width, height] = at.drawn.map(|half| half as f32);
-            ControlPoint { x, y: at.across as f32, z: at.z as f32, halves: Halves::new(width, height) }
-        });
-        selvedge::turn(x, outwards as f32, &from, &to)
+        let (crossed, outwards) =
+            if right { (BEYOND + self.cloth.warp().len() - 1, 1.0) } else { (BEYOND, -1.0) };
+        let at = |pick: usize| self.station((1, pick), crossed);
+        // Beyond the two picks lie those of the neighbouring turns at this edge. Each turn has half
+        // of the way between the middles of both.
+        let middle = |picks: [usize; 2]| f64::midpoint(at(picks[0]).across, at(picks[1]).across);
+        let here = middle([pick - 1, pick]);
+        let before = (pick > 2).then(|| here - middle([pick - 3, pick - 2]));
+        let after = (pick + 2 < self.cloth.weft().len()).then(|| middle([pick + 1, pick + 2]) - here);
+        let room = before.into_iter().chain(after).fold(f64::INFINITY, f64::min) / 2.0;
+        Turn::new([at(pick - 1), at(pick)], outwards, room)
     }
 }

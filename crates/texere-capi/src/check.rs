@@ -213,7 +213,7 @@ impl Checked {
         if checked.verdict().is_some() {
             // `find_cures` returns no error when the progress asks it to stop: it keeps the cures
             // found so far.
-            checked.find_cures(of, |share| {
+            checked.find_cures(of, &*texere::open("cpu")?, |share| {
                 asked = progress(MEASURED + (1.0 - MEASURED) * share);
                 asked
             })?;

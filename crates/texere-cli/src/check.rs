@@ -18,7 +18,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Fail> {
     })?;
     let mut report = CheckReport::new(&cloth, settling, args.accuracy, &settings, clearance);
     if report.verdict().is_some() {
-        progress::during("looking for cures", |bar| report.find_cures(&cloth, progress::share(bar)))?;
+        let device = texere::open("cpu")?;
+        progress::during("looking for cures", |bar| {
+            report.find_cures(&cloth, &*device, progress::share(bar))
+        })?;
     }
     if args.json {
         print::json(&report)?;

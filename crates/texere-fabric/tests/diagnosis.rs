@@ -4,8 +4,9 @@
 use std::ops::ControlFlow;
 
 use texere_core::{Material, Origin, Section, Settings};
+use texere_cpu::ParallelBackend;
 use texere_fabric::{
-    BySet, ClothFault, Crossing, Diagnosis, Relief, Remedy, Shape, Structure, Thread, Weave, Woven,
+    BySet, ClothFault, Crossing, Diagnosis, Finish, Relief, Remedy, Shape, Structure, Thread, Weave, Woven,
     WovenDesign,
 };
 
@@ -97,6 +98,53 @@ fn each_cure_leaves_what_it_says() {
     let relieved = design(&jammed, Relief::Flatten);
     let left = relieved.cures(&diagnose(relieved.cloth()), |_| ControlFlow::Continue(()));
     assert!(relieved.is_relieved() && !left.iter().any(|cure| matches!(cure.remedy, Remedy::Relief { .. })));
+}
+
+/// Cures of cloth at rest cure the whole cloth once it is at rest, and not only as it is woven.
+#[test]
+fn cures_at_rest_are_clean_at_rest() {
+    let (device, finish, go_on) =
+        (ParallelBackend::open().unwrap(), Finish::default(), |_| ControlFlow::Continue(()));
+    let rested = |cloth: &Woven| {
+        let structure = Structure::Woven(design(cloth, Relief::Report));
+        let finished = structure.settle(&finish, 0.0, &device, go_on).unwrap();
+        structure.diagnose_finished(&finished, 0.985, go_on).unwrap()
+    };
+    for (weave, pitch) in [("plain", [0.18, 0.18]), ("3/1", [0.12, 0.3]), ("2/2", [0.11, 0.11])] {
+        let dense = cloth(weave, pitch);
+        let found = rested(&dense);
+        assert!(!found.faults.kinds().is_empty(), "{weave}");
+        let mut shares = Vec::new();
+        let cures = design(&dense, Relief::Report).cures_at_rest(&found, &finish, 0.0, &device, |share| {
+            shares.push(share);
+            ControlFlow::Continue(())
+        });
+        assert!(shares.is_sorted() && shares.iter().all(|share| (0.0..1.0).contains(share)), "{shares:?}");
+        assert_eq!(cures.len(), 2, "{weave}");
+        for cure in cures {
+            let changed = match cure.remedy {
+                Remedy::Spacing { spacing_mm, .. } => cloth(weave, spacing_mm.into_array()),
+                Remedy::Diameter { thickest_mm } => {
+                    let threads = |set: &[Thread]| -> Vec<Thread> {
+                        let thin =
+                            |each: &Thread| Thread { radius_mm: (thickest_mm[1] / 2.0) as f32, ..*each };
+                        set.iter().map(thin).collect()
+                    };
+                    let (warp, weft) = (threads(dense.warp()), threads(dense.weft()));
+                    let drawdown = dense.drawdown().clone();
+                    let sections = vec![Section::Circle];
+                    Woven::new(drawdown, warp, weft, vec![Material::default()], sections).unwrap()
+                }
+                other => panic!("{other:?}"),
+            };
+            let after = rested(&changed);
+            println!("{weave}: {:?} -> {:?}", found.faults.kinds(), cure);
+            assert!(after.faults.kinds().is_empty(), "{weave} {:?}: {:?}", cure.remedy, after.faults.kinds());
+        }
+        let stopped = design(&dense, Relief::Report)
+            .cures_at_rest(&found, &finish, 0.0, &device, |_| ControlFlow::Break(()));
+        assert!(stopped.is_empty());
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use texere::Settings;
 use texere::check::{CheckReport, ClothClearance, SettlingReport};
 use texere::read::Refusal;
+use texere::rest::FinishError;
 
 use crate::error::Raise;
 use crate::watch::Run;
@@ -146,7 +147,8 @@ impl Diagnosis {
         let mut report = CheckReport::new(cloth, settling, ACCURACY, &settings, clearance);
         if report.verdict().is_some() {
             // Where a run is stopped its exception comes in place of the cures found so far.
-            report.find_cures(cloth, |share| run.tell(MEASURED + (1.0 - MEASURED) * share))?;
+            let device = texere::open("cpu").map_err(FinishError::from)?;
+            report.find_cures(cloth, &*device, |share| run.tell(MEASURED + (1.0 - MEASURED) * share))?;
         }
         Ok(Self { report })
     }

@@ -5,6 +5,8 @@ mod faults;
 mod joined;
 mod pieces;
 mod places;
+mod search;
+mod trial;
 mod verdict;
 
 pub use cures::{Cure, Remedy};

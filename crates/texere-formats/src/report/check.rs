@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 use texere_contact::finer;
-use texere_core::{Settings, Undersampled, counted};
-use texere_fabric::{ClothClearance, Cure, Diagnosis, FabricError, Faults, Pieces, Pitch};
+use texere_core::{Backend, Settings, Undersampled, counted};
+use texere_fabric::{ClothClearance, Diagnosis, Faults, Pieces, Pitch};
 
 use super::SettlingReport;
 use super::clearance::ClearanceReport;
 use super::clearance::{ContactReport, CrowdReport, CurvatureReport, DrawnReport, place};
-use super::cures::{CureReport, gives_room, phrase};
+use super::cures::{CureReport, phrase};
 use super::measures::Sets;
 use super::setts::{SettReport, setts};
 use crate::{Cloth, Design, Refusal};
@@ -200,29 +200,32 @@ impl CheckReport {
 
     /// Looks for single changes of the design that cure the faults of `cloth`, the cloth of this
     /// report. Changes of woven cloth are tried on the cloth as its structure places it. If the
-    /// cloth has settled, only wider spacings and thinner yarns count. Knits have no such cures.
-    /// More rings are tried for any cloth whose mesh is wrung or inside out. `progress` gets the
-    /// share that is done, from 0 to 1.
+    /// cloth has settled, wider spacings and thinner yarns are tried, and settle on `device`. None
+    /// are tried if its design stretches it, and none of knits. More rings are tried for any cloth
+    /// whose mesh is wrung or inside out. `progress` gets the share that is done, from 0 to 1.
     ///
     /// **Errors**: a [`Refusal`] if the cloth can't be measured, and if `progress` asked to stop.
     pub fn find_cures(
         &mut self,
         cloth: &Cloth,
-        mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+        device: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<(), Refusal> {
         let (design, diagnosis) = (cloth.design(), &self.diagnosis);
-        let (structure, settled) = (&design.structure, self.has_settled());
-        let refused = |error: FabricError| design.refused(error);
-        let cures = if !settled {
-            structure.cures(diagnosis, progress)
-        } else if structure.woven().is_some() {
-            let woven = structure.diagnose(diagnosis.touching, |_| progress(0.0)).map_err(refused)?;
-            structure.cures(&woven, progress)
-        } else {
-            Vec::new()
+        let cures = match design.structure.woven() {
+            Some(woven) if self.has_settled() => {
+                let (finish, tension) = (&design.finish, cloth.yarns().tension());
+                let stretched = design.stretch.is_some();
+                if stretched {
+                    Vec::new()
+                } else {
+                    woven.cures_at_rest(diagnosis, finish, tension, device, progress)
+                }
+            }
+            _ if self.has_settled() => Vec::new(),
+            _ => design.structure.cures(diagnosis, progress),
         };
-        let counts = |cure: &&Cure| !settled || (cure.leaves.is_empty() && gives_room(&cure.remedy));
-        self.cures = cures.iter().filter(counts).filter_map(CureReport::new).collect();
+        self.cures = cures.iter().filter_map(CureReport::new).collect();
         if diagnosis.faults.wrung.is_some() || diagnosis.faults.inside_out.is_some() {
             let finer = finer(cloth.yarns(), &self.settings).map_err(|error| design.refused(error))?;
             self.cures.extend(finer.map(|(subdivisions, _)| CureReport::finer(subdivisions, diagnosis)));

@@ -63,11 +63,6 @@ impl CureReport {
     }
 }
 
-/// Whether a remedy gives threads more room. Such a remedy helps cloth at rest as well.
-pub(crate) const fn gives_room(remedy: &Remedy) -> bool {
-    matches!(remedy, Remedy::Spacing { .. } | Remedy::Diameter { .. })
-}
-
 /// Key, value and effect of a remedy. None for a value beyond [`LENGTHS_MM`], and for a remedy
 /// without a key.
 fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {

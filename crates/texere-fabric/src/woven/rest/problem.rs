@@ -75,7 +75,7 @@ impl Woven {
 
     /// Numbers of ends and picks after which threads lie and cross as before. Each number is at
     /// least two. If nothing repeats, it is the number of all threads of the set.
-    pub(in crate::woven) fn repeat(&self) -> [usize; 2] {
+    pub(crate) fn repeat(&self) -> [usize; 2] {
         self.period_of(|_| None::<u32>)
     }
 

@@ -1,8 +1,8 @@
-//! The two ways in which the `texere` program and the C library are built.
+//! The two ways in which the `texere` program and the libraries of C and Python are built.
 
 use crate::steps::Steps;
 
-/// How the `texere` program and the C library are built.
+/// How the `texere` program and the libraries of C and Python are built.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Build {
     /// Optimised, as users have them.
@@ -21,7 +21,7 @@ impl Build {
         }
     }
 
-    /// Builds the `texere` program and the libraries of C.
+    /// Builds the `texere` program and the library of C. [`Build::Tested`] builds that of Python, too.
     pub(crate) fn libraries(self, steps: &mut Steps) {
         // One call builds both. If each were built by itself, wgpu would have other features, and
         // each build would compile it again after the other.
@@ -31,6 +31,6 @@ impl Build {
             Self::Released => released,
             Self::Tested => vec!["--workspace", "--lib", "--bin", "texere"],
         };
-        steps.cargo("the C library", &[&["build", "--locked"][..], &chosen].concat(), &[]);
+        steps.cargo("the program and its libraries", &[&["build", "--locked"][..], &chosen].concat(), &[]);
     }
 }

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
             programs(&mut steps, Build::Tested);
         }
         Some("hosts") => programs(&mut steps, Build::Released),
-        Some("python") => python(&mut steps),
+        Some("python") => python(&mut steps, Build::Released),
         Some("demo") => demo::demo(&mut steps, Build::Released),
         Some("gallery") => demo::gallery(&mut steps),
         Some("bench-tables") => {
@@ -108,13 +108,13 @@ fn test(steps: &mut Steps) {
     consumer(steps);
     steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
     steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
-    python(steps);
+    python(steps, Build::Tested);
 }
 
 /// Builds and tests the Python package.
-fn python(steps: &mut Steps) {
+fn python(steps: &mut Steps, build: Build) {
     install(steps, "Python", &python::PACKAGES);
-    python::test(steps);
+    python::test(steps, build);
 }
 
 /// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Its

@@ -1,8 +1,10 @@
-//! The Python package: built as its users' wheel is, installed and tested.
+//! The Python package: a wheel, installed and tested.
 
 use std::fs;
+use std::io;
 use std::path::Path;
 
+use crate::build::Build;
 use crate::steps::{Steps, root};
 
 /// Debian's packages that make environments of Python.
@@ -18,9 +20,21 @@ const NOTEBOOKS: &str = "docs/notebooks";
 const ENVIRONMENT: &str = "target/python/environment";
 const WHEELS: &str = "target/python/wheels";
 
-/// Builds the wheel, installs it in an environment of its own, and runs its tests against the
-/// `texere` program.
-pub(crate) fn test(steps: &mut Steps) {
+/// The folder of what is packed into a wheel.
+const UNPACKED: &str = "target/python/unpacked";
+
+/// The name of the library as cargo builds it, and in the package.
+const LIBRARY: [&str; 2] = if cfg!(windows) {
+    ["_texere.dll", "_texere.pyd"]
+} else if cfg!(target_os = "macos") {
+    ["lib_texere.dylib", "_texere.abi3.so"]
+} else {
+    ["lib_texere.so", "_texere.abi3.so"]
+};
+
+/// Makes the wheel, installs it in an environment of its own, and runs its tests against the
+/// `texere` program of the tests.
+pub(crate) fn test(steps: &mut Steps, build: Build) {
     let (system, folder) = if cfg!(windows) { ("python", "Scripts") } else { ("python3", "bin") };
     let [python, maturin] = ["python", "maturin"].map(|name| format!("{ENVIRONMENT}/{folder}/{name}"));
     if !steps.succeeds(&python, &["-m", "pip", "--version"]) {
@@ -31,20 +45,53 @@ pub(crate) fn test(steps: &mut Steps) {
     steps.run("what builds and tests the package", &[&pip[..], &["--requirement", &needed]].concat(), &[]);
     // Wheels of other versions are not installed by mistake.
     let _ = fs::remove_dir_all(root().join(WHEELS));
-    let manifest = format!("{PACKAGE}/Cargo.toml");
-    let build =
-        [&maturin, "build", "--profile", "dev", "--locked", "--manifest-path", &manifest, "--out", WHEELS];
-    steps.run("the Python package", &build, &[]);
+    Build::Tested.libraries(steps);
+    match build {
+        Build::Released => {
+            let manifest = format!("{PACKAGE}/Cargo.toml");
+            let build =
+                [&maturin, "build", "--release", "--locked", "--manifest-path", &manifest, "--out", WHEELS];
+            steps.run("the Python package", &build, &[]);
+        }
+        Build::Tested => pack(steps, &python, &maturin),
+    }
     let Some(wheel) = wheel(&root().join(WHEELS)) else {
         return steps.fail(format!("the Python package: no wheel in {WHEELS}"));
     };
     let anew = ["--force-reinstall", "--no-deps", &wheel];
     steps.run("the Python package, installed", &[&pip[..], &anew].concat(), &[]);
-    // The program is built with the features that the tests before have built it with.
-    steps.cargo("the program", &["build", "--workspace", "--bin", "texere", "--locked"], &[]);
     let tests = format!("{PACKAGE}/tests");
     steps.run("tests of the Python package", &[&python, "-m", "pytest", "--quiet", &tests], &[]);
     steps.run("notebooks", &[&python, "-m", "pytest", "--quiet", "--nbmake", NOTEBOOKS], &[]);
+}
+
+/// Packs a wheel round the library that the tests have built. Maturin would compile it once more
+/// with other features of wgpu, which takes minutes.
+fn pack(steps: &mut Steps, python: &str, maturin: &str) {
+    let unpacked = root().join(UNPACKED);
+    let _ = fs::remove_dir_all(&unpacked);
+    if let Err(error) = lay(&unpacked.join("texere")) {
+        return steps.fail(format!("{UNPACKED}: {error}"));
+    }
+    let manifest = format!("{PACKAGE}/Cargo.toml");
+    let about = [maturin, "pep517", "write-dist-info", "--manifest-path", &manifest];
+    let about = [&about[..], &["--interpreter", python, "--metadata-directory", UNPACKED]].concat();
+    steps.run("what the wheel says of itself", &about, &[]);
+    steps.run("the Python package", &[python, "-m", "wheel", "pack", UNPACKED, "--dest-dir", WHEELS], &[]);
+}
+
+/// Lays the library and the sources in Python in the folder `package`, and makes that of the wheel.
+fn lay(package: &Path) -> io::Result<()> {
+    fs::create_dir_all(package)?;
+    fs::create_dir_all(root().join(WHEELS))?;
+    for source in fs::read_dir(root().join(PACKAGE).join("python/texere"))? {
+        let source = source?;
+        if source.file_type()?.is_file() {
+            fs::copy(source.path(), package.join(source.file_name()))?;
+        }
+    }
+    let [built, named] = LIBRARY;
+    fs::copy(root().join(Build::Tested.folder()).join(built), package.join(named)).map(drop)
 }
 
 /// The wheel in a folder.

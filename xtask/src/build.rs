@@ -21,7 +21,8 @@ impl Build {
         }
     }
 
-    /// Builds the `texere` program and the library of C. [`Build::Tested`] builds that of Python, too.
+    /// Builds the `texere` program and the library of C. [`Build::Tested`] builds that of Python,
+    /// too.
     pub(crate) fn libraries(self, steps: &mut Steps) {
         // One call builds both. If each were built by itself, wgpu would have other features, and
         // each build would compile it again after the other.

@@ -7,8 +7,8 @@ use crate::steps::Steps;
 pub(crate) enum Build {
     /// Optimised, as users have them.
     Released,
-    /// With all packages of the workspace, as tests have them. Checks build nothing else, so that
-    /// no package is compiled twice.
+    /// With all packages of the workspace, as tests have them. Checks use these, so that they are
+    /// not compiled a second time.
     Tested,
 }
 

@@ -18,6 +18,8 @@ const STRETCHED: f64 = 0.5;
 pub struct Cloth {
     design: Design,
     report: RestReport,
+    /// Whether the design has stretched the cloth.
+    pub(crate) stretched: bool,
 }
 
 /// The yarns of a [`Cloth`], and whether they came to rest.
@@ -171,7 +173,7 @@ impl Design {
     /// range.
     pub fn placed(self, tension: f32) -> Result<Cloth, Refusal> {
         let yarns = self.placed_yarns(tension)?;
-        Ok(Cloth { design: self, report: RestReport::Placed(yarns) })
+        Ok(Cloth { design: self, report: RestReport::Placed(yarns), stretched: false })
     }
 
     fn placed_yarns(&self, tension: f32) -> Result<Yarns, Refusal> {
@@ -206,7 +208,7 @@ impl<'a> Resting<'a> {
         if !design.settle {
             return design.placed(tension);
         }
-        let mut done = 0.0;
+        let (mut done, stretched) = (0.0, design.stretch.is_some());
         if let Some(stretch) = design.stretch.take() {
             let on = |share| progress(STRETCHED * share);
             match design.structure.stretch(&design.finish, stretch, tension, device, on) {
@@ -223,6 +225,6 @@ impl<'a> Resting<'a> {
             }
             Err(error) => return Err(design.refused(error)),
         };
-        Ok(Cloth { design, report })
+        Ok(Cloth { design, report, stretched })
     }
 }

@@ -27,7 +27,7 @@ pub enum Outcome {
     Large,
     /// The yarns were refused.
     NoYarns(String),
-    /// The design was accepted, and passed through every step.
+    /// The design was accepted, and passed through every step that its [`Depth`] asks for.
     Taken,
 }
 
@@ -177,7 +177,7 @@ fn rested(design: Design) -> Result<Cloth, Refusal> {
     design.rest(&backend).progress(on).run()
 }
 
-/// Reads saved yarns, writes them again, and makes their mesh and their clearance.
+/// Reads saved yarns and writes them again. If `depth` says so, makes their mesh and clearance.
 fn saved(path: &Path, depth: Depth) -> Outcome {
     let SavedYarns { yarns, boundary } = match read::yarns(path) {
         Ok(saved) => saved,
@@ -192,8 +192,8 @@ fn saved(path: &Path, depth: Depth) -> Outcome {
     meshed(&yarns, depth)
 }
 
-/// Reads curves, writes them again, and makes their mesh and their clearance. Curves that are
-/// written again are the same when they are read again.
+/// Reads curves and writes them again. Read once more, they have to be the same. If `depth` says
+/// so, makes their mesh and clearance.
 fn curves(path: &Path, depth: Depth) -> Outcome {
     let given = CurveScale { unit_mm: Some(1.0), diameter_mm: Some(0.2) };
     // Files of USD and TexGen say both themselves.

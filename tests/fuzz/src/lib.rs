@@ -1,6 +1,6 @@
-//! Fuzzing of texere's readers with mutated designs. A design that a reader accepts goes on through
-//! yarns, plan, mesh and clearance. A design that it refuses has a short error. Nothing may panic,
-//! hang or take much memory.
+//! Fuzzing of texere's readers with mutated designs. A design that a reader accepts goes on to its
+//! yarns, and one in eight to plan, mesh and clearance. A design that it refuses has a short error.
+//! Nothing may panic, hang or take much memory.
 //!
 //! An input depends on a reader and a number only. The number of a failure thus makes its input
 //! again:

@@ -22,7 +22,7 @@ const MEMORY_MIB: f32 = 1024.0;
 const DEEP: u64 = 8;
 
 /// Runs the inputs with these numbers. Returns the number of inputs that were accepted and passed
-/// through every step.
+/// through every step that they had to take.
 ///
 /// `heap` counts the program's memory. The files of an input that fails are kept in the folder
 /// `kept`.

@@ -21,16 +21,16 @@ pub struct Cure {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Remedy {
-    /// Another shape, see [`Woven::set_shape`].
+    /// Another shape, see [`Woven::set_shape`](crate::Woven::set_shape).
     Shape(Shape),
-    /// Another share of the crimp for the warp, see [`Crimp::WarpShare`].
+    /// Another share of the crimp for the warp, see [`Crimp::WarpShare`](crate::Crimp::WarpShare).
     WarpShare {
         /// The warp's share before the change.
         before: f32,
         /// The warp's share with the change.
         after: f32,
     },
-    /// Relief, see [`Woven::relieve`].
+    /// Relief, see [`Woven::relieve`](crate::Woven::relieve).
     Relief {
         /// The kind of relief.
         relief: Relief,
@@ -39,9 +39,9 @@ pub enum Remedy {
         /// Diameter of the thickest thread before and after, mm.
         thickest_mm: [f64; 2],
     },
-    /// Circular sections for all threads, see [`Woven::set_section`].
+    /// Circular sections for all threads, see [`Woven::set_section`](crate::Woven::set_section).
     Circle,
-    /// One flatness, width over height, for all threads: see [`Woven::set_flatness`].
+    /// One flatness, width over height, for all threads: see [`Woven::set_flatness`](crate::Woven::set_flatness).
     Flatness(f32),
     /// All threads further apart.
     Spacing {

@@ -6,16 +6,17 @@ use std::ops::ControlFlow;
 use texere_core::Backend;
 
 use super::cures::Cure;
-use super::faults::Diagnosis;
-use super::trial::{Rest, Trial, WIDER, WIDER_TIMES, around_worst, repeats};
+use super::faults::{ClothFault, Diagnosis};
+use super::trial::{Rest, Trial, WIDER, around_worst, repeats};
 use crate::{Finish, Relief, WovenDesign};
 
 /// The powers of [`WIDER`] at which cloth comes to rest first, because each rest takes time. The
 /// powers between the first clean one and the one before are then halved.
-const WIDER_FIRST: [i32; 6] = [1, 2, 4, 8, 16, WIDER_TIMES];
+const WIDER_FIRST: [i32; 6] = [1, 2, 4, 8, 16, 32];
 
-/// The most powers that are tried of a cloth at rest: all of [`WIDER_FIRST`], and three halvings.
-const AT_REST_MOST: u32 = 9;
+/// The most times that a cloth comes to rest: as it is, with all powers of [`WIDER_FIRST`], and
+/// with those of four halvings.
+const AT_REST_MOST: u32 = 11;
 
 impl WovenDesign {
     /// Looks for single changes that help against the faults of `diagnosis`, the diagnosis of this
@@ -66,13 +67,16 @@ impl WovenDesign {
         cures
     }
 
-    /// Looks for wider spacings and thinner yarns with which the cloth has no fault at rest.
-    /// `diagnosis` is that of the cloth at rest. Each change is tried with a piece of the cloth,
-    /// which comes to rest on `backend` as `finish` says: with two repeats or, if these are large,
-    /// with the threads around the worst places. `tension` is the tension of the yarns' splines.
+    /// Looks for a wider spacing and for thinner yarns with which the cloth has no fault at rest,
+    /// but for falling apart. `diagnosis` is that of the cloth at rest. Each change is tried with a
+    /// piece of the cloth, which comes to rest on `backend` as `finish` says: with two or three
+    /// repeats or, if these are large, with the threads around the worst places. If the piece does
+    /// not have the faults of the cloth before it is changed, there are no cures. `tension` is the
+    /// tension of the yarns' splines.
     ///
-    /// `progress` gets the share of the changes that have been tried. `Break` ends the search
-    /// without a cure.
+    /// There are no cures of a [relieved](Self::is_relieved) design, because relief would change
+    /// with the spacing. `progress` gets the share that is done, from 0 to 1. `Break` ends the
+    /// search without a cure.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -98,17 +102,28 @@ impl WovenDesign {
         finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
-        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+        mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Vec<Cure> {
         let (cloth, faults, touching) = (self.cloth(), &diagnosis.faults, diagnosis.touching);
+        if self.is_relieved() || faults.kinds().iter().all(|fault| *fault == ClothFault::FallsApart) {
+            return Vec::new();
+        }
         let samples = repeats(cloth).unwrap_or_else(|| around_worst(cloth, faults));
         let rest = Some(Rest { finish, tension, backend });
         let trial = Trial { cloth, faults, samples, touching, rest };
         let (mut tried, mut stopped) = (0, false);
+        // Once it is stopped, each further trial ends at once.
+        let mut on = |number: u32, share: f64| {
+            let done = (f64::from(number) + share) / f64::from(AT_REST_MOST);
+            stopped |= stopped || progress(done).is_break();
+            if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        if !trial.shows(&mut |share| on(0, share)) {
+            return Vec::new();
+        }
         let mut clean = |times: i32| {
-            stopped |= progress(f64::from(tried) / f64::from(AT_REST_MOST)).is_break();
             tried += 1;
-            if stopped { None } else { trial.wider(WIDER.powi(times)) }
+            trial.wider(WIDER.powi(times), &mut |share| on(tried, share))
         };
         let (mut failed, mut found) = (0, None);
         for times in WIDER_FIRST {

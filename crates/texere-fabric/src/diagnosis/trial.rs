@@ -15,15 +15,15 @@ const AROUND: usize = 12;
 
 /// Factor from each spacing that is tried to the next one.
 pub(super) const WIDER: f64 = 1.05;
-/// Number of spacings that are tried. They begin at the first power of [`WIDER`] at which nothing
-/// jams, and end at 2.8 times that (1.05 to the power of 21).
-pub(super) const WIDER_TIMES: i32 = 22;
+/// Number of spacings that are tried of cloth as it is woven. They begin at the first power of
+/// [`WIDER`] at which nothing jams, and end at 2.8 times that (1.05 to the power of 21).
+const WIDER_TIMES: i32 = 22;
 
-/// The most crossings of a sample that holds two repeats of a cloth. Around the worst places of a
-/// cloth with larger repeats there are at most 24 threads of each set.
+/// The most crossings of a sample that holds two or three repeats of a cloth. In a cloth with larger
+/// repeats, the threads around its worst places are the samples.
 const REPEATS_MOST: usize = 4_096;
 
-/// Number of threads that are left beside two repeats.
+/// Number of threads that are left beside the repeats.
 const BESIDE: usize = 8;
 
 /// Flatnesses (width over height) that are tried for all yarns.
@@ -88,10 +88,13 @@ fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
     samples
 }
 
-/// Two repeats of the cloth and some threads more, if these are few.
+/// Two or three repeats of the cloth and some threads more, if these are few. Both edges are those
+/// of the cloth.
 pub(super) fn repeats(cloth: &Woven) -> Option<Vec<Sample>> {
     let (repeat, counts) = (cloth.repeat(), [cloth.warp().len(), cloth.weft().len()]);
-    let sample = [0, 1].map(|set| 0..counts[set].min(2 * repeat[set] + BESIDE));
+    let left =
+        |count: usize, repeat: usize| count - count.saturating_sub(2 * repeat + BESIDE) / repeat * repeat;
+    let sample = [0, 1].map(|set| 0..left(counts[set], repeat[set]));
     (sample[0].len() * sample[1].len() <= REPEATS_MOST).then(|| vec![sample])
 }
 
@@ -109,6 +112,16 @@ pub(super) struct Trial<'a> {
     pub(super) touching: f64,
     /// How pieces come to rest; none if they are measured as they are woven.
     pub(super) rest: Option<Rest<'a>>,
+}
+
+/// A function that gets the share that is done, from 0 to 1, and may end the work.
+pub(super) type On<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
+
+/// The share of a trial at rest after which its pieces are measured.
+const RESTED: f64 = 0.7;
+
+fn go_on(_: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
 /// How pieces of the cloth come to rest before they are measured.
@@ -139,7 +152,7 @@ impl Trial<'_> {
         }
         let mut changed = self.cloth.clone();
         changed.set_shape(Shape::Round);
-        Some(self.better(&changed)?.by(Remedy::Shape(Shape::Round)))
+        Some(self.better(&changed, &mut go_on)?.by(Remedy::Shape(Shape::Round)))
     }
 
     /// The share of the crimp that cures and is nearest to the present one.
@@ -150,7 +163,7 @@ impl Trial<'_> {
         shares.into_iter().find_map(|after| {
             let mut changed = self.cloth.clone();
             changed.set_crimp(Crimp::WarpShare(after)).ok()?;
-            Some(self.clean(&changed)?.by(Remedy::WarpShare { before, after }))
+            Some(self.clean(&changed, &mut go_on)?.by(Remedy::WarpShare { before, after }))
         })
     }
 
@@ -161,7 +174,7 @@ impl Trial<'_> {
             return None;
         }
         let thickest_mm = [self.cloth, &changed].map(thickest_mm);
-        Some(self.better(&changed)?.by(Remedy::Relief { relief, report, thickest_mm }))
+        Some(self.better(&changed, &mut go_on)?.by(Remedy::Relief { relief, report, thickest_mm }))
     }
 
     /// Circular sections for all threads, if the cloth has another section. If all sections are
@@ -170,11 +183,11 @@ impl Trial<'_> {
         let mut changed = self.cloth.clone();
         if self.cloth.sections().iter().any(|section| *section != Section::Circle) {
             changed.set_section(Section::Circle).ok()?;
-            return Some(self.clean(&changed)?.by(Remedy::Circle));
+            return Some(self.clean(&changed, &mut go_on)?.by(Remedy::Circle));
         }
         FLATNESSES.into_iter().find_map(|flatness| {
             changed.set_flatness(flatness).ok()?;
-            Some(self.clean(&changed)?.by(Remedy::Flatness(flatness)))
+            Some(self.clean(&changed, &mut go_on)?.by(Remedy::Flatness(flatness)))
         })
     }
 
@@ -185,14 +198,15 @@ impl Trial<'_> {
         let jammed = self.faults.jams.iter().filter_map(|jams| jams.threads.first());
         let least = jammed.map(|jam| jam.passing_mm / jam.pitch_mm).fold(1.0, f64::max);
         let first = (least.ln() / WIDER.ln()).ceil().max(1.0) as i32;
-        let found = (first..first + WIDER_TIMES).find_map(|times| self.wider(WIDER.powi(times)));
+        let found = (first..first + WIDER_TIMES).find_map(|times| self.wider(WIDER.powi(times), &mut go_on));
         found.map_or_else(Vec::new, Into::into)
     }
 
     /// The two cures by room, if threads that lie further apart by `factor` have no fault left.
     /// Thinner yarns give the same cloth at another scale.
-    pub(super) fn wider(&self, factor: f64) -> Option<[Cure; 2]> {
-        let Outcome { clearance, curvature, leaves } = self.clean(&self.cloth.spaced([factor; 2]).ok()?)?;
+    pub(super) fn wider(&self, factor: f64, on: &mut On<'_>) -> Option<[Cure; 2]> {
+        let Outcome { clearance, curvature, leaves } =
+            self.clean(&self.cloth.spaced([factor; 2]).ok()?, on)?;
         let mean =
             |set: &[Thread]| set.iter().map(|thread| thread.spacing_mm).sum::<f64>() / set.len() as f64;
         let spacing_mm =
@@ -205,22 +219,37 @@ impl Trial<'_> {
 
     /// The measures of `changed`, if no fault of its threads is left. A cloth that falls apart does
     /// so whatever its yarns. A cloth that still jams is not measured.
-    fn clean(&self, changed: &Woven) -> Option<Outcome> {
+    fn clean(&self, changed: &Woven, on: &mut On<'_>) -> Option<Outcome> {
         if self.jams(changed).is_some() {
             return None;
         }
         let clean = |outcome: &Outcome| outcome.leaves.iter().all(|left| *left == ClothFault::FallsApart);
-        self.better(changed).filter(clean)
+        self.better(changed, on).filter(clean)
     }
 
-    /// The measures of `changed`, if at least one kind of fault is gone. Jams are looked for in the
-    /// whole cloth, other faults at the worst places. The pieces of the cloth count as unchanged.
-    fn better(&self, changed: &Woven) -> Option<Outcome> {
+    /// The measures of `changed`, if at least one kind of fault is gone.
+    fn better(&self, changed: &Woven, on: &mut On<'_>) -> Option<Outcome> {
+        let (before, outcome) = (self.faults.kinds(), self.outcome(changed, on)?);
+        let leaves = &outcome.leaves;
+        let better = before != *leaves && leaves.iter().all(|kind| before.contains(kind));
+        better.then_some(outcome)
+    }
+
+    /// Whether the samples have all kinds of fault of the cloth before it is changed. If they have
+    /// not, they can't show whether a change cures.
+    pub(super) fn shows(&self, on: &mut On<'_>) -> bool {
+        self.outcome(self.cloth, on).is_some_and(|outcome| outcome.leaves == self.faults.kinds())
+    }
+
+    /// The measures of `changed`. Jams are looked for in the whole cloth, other faults in the
+    /// samples. The pieces of the cloth count as unchanged.
+    fn outcome(&self, changed: &Woven, on: &mut On<'_>) -> Option<Outcome> {
         let mut left =
             Faults { jams: self.jams(changed), apart: self.faults.apart.clone(), ..Faults::default() };
         let (mut clearance, mut curvature) = (f64::INFINITY, f64::INFINITY);
-        for sample in &self.samples {
-            let found = self.diagnose(changed, sample).ok()?;
+        for (number, sample) in self.samples.iter().enumerate() {
+            let mut on = |share| on((number as f64 + share) / self.samples.len() as f64);
+            let found = self.diagnose(changed, sample, &mut on).ok()?;
             left.crowded = left.crowded.or(found.faults.crowded);
             left.pierces.extend(found.faults.pierces);
             left.folds = left.folds.or(found.faults.folds);
@@ -229,9 +258,7 @@ impl Trial<'_> {
             clearance = clearance.min(found.clearance.min);
             curvature = curvature.min(found.clearance.bend.radii);
         }
-        let (before, leaves) = (self.faults.kinds(), left.kinds());
-        let better = before != leaves && leaves.iter().all(|kind| before.contains(kind));
-        better.then_some(Outcome { clearance, curvature, leaves })
+        Some(Outcome { clearance, curvature, leaves: left.kinds() })
     }
 
     /// Threads that lie too close together as they are woven. At rest their clearance shows it.
@@ -240,14 +267,15 @@ impl Trial<'_> {
     }
 
     /// The faults of a sample, as it is woven or at rest.
-    fn diagnose(&self, changed: &Woven, sample: &Sample) -> Result<Diagnosis, FinishError> {
-        let (piece, go_on) = (piece(changed, sample)?, |_| ControlFlow::Continue(()));
+    fn diagnose(&self, changed: &Woven, sample: &Sample, on: &mut On<'_>) -> Result<Diagnosis, FinishError> {
+        let piece = piece(changed, sample)?;
         let Some(Rest { finish, tension, backend }) = self.rest else {
             return Ok(piece.diagnose(self.touching, go_on)?);
         };
-        let yarns = piece.at_rest(finish, tension, backend, go_on)?.yarns;
+        let yarns = piece.at_rest(finish, tension, backend, |share| on(RESTED * share))?.yarns;
         let settings = Settings::default().following(&yarns);
-        let clearance = piece.clearance(&yarns, &settings, go_on)?;
+        let measuring = |share| on(RESTED + (1.0 - RESTED) * share);
+        let clearance = piece.clearance(&yarns, &settings, measuring)?;
         Ok(Diagnosis::new(self.touching, clearance, None, piece.pieces()))
     }
 }

@@ -67,6 +67,32 @@ fn turns_do_not_fold() {
     }
 }
 
+/// A thin yarn beside a thick one of the same material, and picks at uneven distances: turns have
+/// the sizes of their picks, and leave room for one another.
+#[test]
+fn turns_of_uneven_picks_do_not_touch() {
+    let spacings = [3.0, 1.0, 1.0, 1.0].map(|pitch| pitch * DIAMETER);
+    for radii in [[1.0; 4], [1.0, 0.5, 1.0, 0.5]] {
+        let pick =
+            |number: usize| Thread::new(spacings[number % 4], (radii[number % 4] * DIAMETER / 2.0) as f32);
+        let rib = |end: usize, pick: usize| (end + pick / 2).is_multiple_of(2);
+        let warp = vec![Thread::new(2.0 * DIAMETER, (DIAMETER / 2.0) as f32); THREADS];
+        let weft = (0..THREADS).map(pick).collect();
+        let drawdown = Drawdown::from_fn(THREADS, THREADS, rib).unwrap();
+        let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+        let mut woven = Woven::new(drawdown, warp, weft, materials, sections).unwrap();
+        woven.set_selvedge(true);
+        let rest = finished(&woven, &Finish::default());
+        let turns = turns(&rest.yarns);
+        let (bends, nearest) = (tightest(&rest.yarns), nearest(&turns));
+        let flattest =
+            turns.iter().flatten().map(|point| point.half_width() / point.half_height()).fold(0.0, f32::max);
+        println!("{radii:?}: bends {bends:.2}, turns {nearest:.3} of touching, at most {flattest:.2} : 1");
+        assert!(bends >= 1.0 && nearest >= 0.98, "{bends} {nearest}");
+        assert!(flattest < 3.0, "{flattest}");
+    }
+}
+
 /// The least distance of the middles of two turns, over the sum of their half widths.
 fn nearest(turns: &[Vec<ControlPoint>]) -> f32 {
     let mut least = f32::MAX;

@@ -43,6 +43,8 @@ pub struct CheckReport {
     settling: Option<SettlingReport>,
     cures: Vec<CureReport>,
     #[serde(skip)]
+    stretched: bool,
+    #[serde(skip)]
     diagnosis: Diagnosis,
     /// The faults in one phrase, if there are any.
     #[serde(skip)]
@@ -179,6 +181,7 @@ impl CheckReport {
             empty_needles,
             settling,
             cures: Vec::new(),
+            stretched: cloth.stretched,
             diagnosis,
             verdict,
             settings: *settings,
@@ -200,11 +203,12 @@ impl CheckReport {
 
     /// Looks for single changes of the design that cure the faults of `cloth`, the cloth of this
     /// report. Changes of woven cloth are tried on the cloth as its structure places it. If the
-    /// cloth has settled, wider spacings and thinner yarns are tried, and settle on `device`. None
-    /// are tried if its design stretches it, and none of knits. More rings are tried for any cloth
-    /// whose mesh is wrung or inside out. `progress` gets the share that is done, from 0 to 1.
+    /// cloth has settled, wider spacings and thinner yarns are tried, and settle on `device`. No
+    /// changes are tried for cloth that its design stretches, nor for knits. More rings are tried
+    /// for any cloth whose mesh is wrung or inside out. `progress` gets the share that is done, from
+    /// 0 to 1. If it asks to stop, only the cures found so far are reported.
     ///
-    /// **Errors**: a [`Refusal`] if the cloth can't be measured, and if `progress` asked to stop.
+    /// **Errors**: a [`Refusal`] if the cloth can't be measured.
     pub fn find_cures(
         &mut self,
         cloth: &Cloth,
@@ -213,14 +217,9 @@ impl CheckReport {
     ) -> Result<(), Refusal> {
         let (design, diagnosis) = (cloth.design(), &self.diagnosis);
         let cures = match design.structure.woven() {
-            Some(woven) if self.has_settled() => {
+            Some(woven) if self.has_settled() && !cloth.stretched => {
                 let (finish, tension) = (&design.finish, cloth.yarns().tension());
-                let stretched = design.stretch.is_some();
-                if stretched {
-                    Vec::new()
-                } else {
-                    woven.cures_at_rest(diagnosis, finish, tension, device, progress)
-                }
+                woven.cures_at_rest(diagnosis, finish, tension, device, progress)
             }
             _ if self.has_settled() => Vec::new(),
             _ => design.structure.cures(diagnosis, progress),
@@ -318,6 +317,8 @@ impl CheckReport {
             if self.cures.is_empty() {
                 line("cure", "none was looked for: cures are known for woven cloth alone".into());
             }
+        } else if self.cures.is_empty() && self.stretched {
+            line("cure", "none was looked for: the design stretches the cloth".into());
         } else if self.cures.is_empty() {
             line(
                 "cure",

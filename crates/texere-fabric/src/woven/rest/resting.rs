@@ -337,13 +337,12 @@ impl<'a> Placing<'a> {
         let (crossed, outwards) =
             if right { (BEYOND + self.cloth.warp().len() - 1, 1.0) } else { (BEYOND, -1.0) };
         let at = |pick: usize| self.station((1, pick), crossed);
-        // Beyond the two picks lie those of the neighbouring turns at this edge. Each turn has half
-        // of the way between the middles of both.
-        let middle = |picks: [usize; 2]| f64::midpoint(at(picks[0]).across, at(picks[1]).across);
-        let here = middle([pick - 1, pick]);
-        let before = (pick > 2).then(|| here - middle([pick - 3, pick - 2]));
-        let after = (pick + 2 < self.cloth.weft().len()).then(|| middle([pick + 1, pick + 2]) - here);
-        let room = before.into_iter().chain(after).fold(f64::INFINITY, f64::min) / 2.0;
-        Turn::new([at(pick - 1), at(pick)], outwards, room)
+        // The picks beside these two belong to the neighbouring turns at this edge. Each turn has
+        // half of the gap to them.
+        let gap = |below: usize| at(below + 1).across - at(below).across;
+        let before = pick.checked_sub(2).map(gap);
+        let after = (pick + 1 < self.cloth.weft().len()).then(|| gap(pick));
+        let beside = before.into_iter().chain(after).fold(f64::INFINITY, f64::min);
+        Turn::new([at(pick - 1), at(pick)], outwards, (gap(pick - 1) + beside) / 2.0)
     }
 }

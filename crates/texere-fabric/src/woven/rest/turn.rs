@@ -10,6 +10,8 @@
 use std::array;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use texere_core::RADIUS_MIN;
+
 use super::path::Station;
 use super::stop::Stop;
 
@@ -33,9 +35,14 @@ const WAYS: usize = BENDS + 2 * BESIDE;
 const SMOOTHINGS: usize = 2;
 
 /// The radius of the bends before they are smoothed, as a multiple of the yarn's half width. The
-/// spline's tightest bend has 0.71 of it or more, whatever the distance of picks. 1.35 was tried as
-/// well. With 1.2 `turns_do_not_fold` fails.
+/// spline's tightest bend has 0.71 of it or more, whatever the distance of picks. With 1.35 bends of
+/// the tested cloths are wide enough, too, but with less to spare. With 1.2 `turns_do_not_fold`
+/// fails.
 const WIDE: f64 = 1.45;
+
+/// The largest distance of the yarn's middle from the middle between both picks, as a multiple of
+/// the radius. It is more than 1, because the bends are smoothed.
+const SWUNG: f64 = 1.03;
 
 /// Number of halvings in the search for an angle.
 const HALVINGS: usize = 40;
@@ -52,33 +59,35 @@ pub(super) struct Turn {
     directions: [f64; WAYS],
     /// The length of a way, mm.
     way: f64,
-    /// Half width of the yarn in the turn, mm.
-    half_width: f64,
+    /// Half widths of the yarn where the turn begins and where it ends, mm.
+    half_widths: [f64; 2],
 }
 
 impl Turn {
     /// The turn from one pick to the next, which lies at a larger `across`. `outwards` is 1 at the
-    /// right edge and -1 at the left. `room` is half the distance from the middle between both
-    /// picks to that of the neighbouring turn at this edge, mm.
+    /// right edge and -1 at the left. `room` is the distance from the middle between both picks
+    /// that the yarn may reach, mm.
     pub(super) fn new(picks: [Station; 2], outwards: f64, room: f64) -> Self {
         let [from, to] = &picks;
         let apart = (to.across - from.across).max(0.0);
-        let widest = from.drawn[0].max(to.drawn[0]);
-        let round = picks.iter().map(|pick| (pick.drawn[0] * pick.drawn[1]).sqrt()).fold(0.0, f64::max);
         // The radius of a turn that nowhere bends away from the next pick.
         let least = apart / apart_at(0.0);
-        let half_width = (least / WIDE).max(round).min(widest);
-        let radius = least.max((WIDE * half_width).min(room / (1.0 + 1.0 / WIDE)));
-        let away = away(apart / radius);
+        let half_widths = picks.each_ref().map(|pick| {
+            let round = (pick.drawn[0] * pick.drawn[1]).sqrt();
+            (least / WIDE).max(round).min(pick.drawn[0])
+        });
+        let wanted = WIDE * half_widths[0].max(half_widths[1]);
+        let radius = least.max(wanted.min(room / (SWUNG + 1.0 / WIDE)));
+        let away = if radius > least { away(apart / radius) } else { 0.0 };
         let way = radius * (PI + 4.0 * away) / BENDS as f64;
         let end = if outwards > 0.0 { from.at.max(to.at) } else { from.at.min(to.at) };
-        let touching = from.crossed[0].max(to.crossed[0]) + widest;
+        let touching = from.crossed[0].max(to.crossed[0]) + from.drawn[0].max(to.drawn[0]);
         Self {
             outwards,
             edge: end + outwards * (touching - BESIDE as f64 * way).max(2.0 * way),
             directions: directions(away),
             way,
-            half_width: widest.min(radius / WIDE),
+            half_widths: half_widths.map(|half_width| half_width.min(radius / WIDE)),
             picks,
         }
     }
@@ -107,11 +116,12 @@ impl Turn {
         let done = (FRAC_PI_2 * gone).sin().powi(2);
         let mix = |from: f64, to: f64| from + done * (to - from);
         let area = mix(from.drawn[0] * from.drawn[1], to.drawn[0] * to.drawn[1]);
+        let half_width = mix(self.half_widths[0], self.half_widths[1]);
         Stop {
             along: place[0],
             across: place[1],
             z: mix(from.z, to.z),
-            halves: [self.half_width, area / self.half_width],
+            halves: [half_width, (area / half_width).max(f64::from(RADIUS_MIN))],
             crossing: None,
         }
     }

@@ -41,7 +41,8 @@ pub enum Remedy {
     },
     /// Circular sections for all threads, see [`Woven::set_section`](crate::Woven::set_section).
     Circle,
-    /// One flatness, width over height, for all threads: see [`Woven::set_flatness`](crate::Woven::set_flatness).
+    /// One flatness, width over height, for all threads: see
+    /// [`Woven::set_flatness`](crate::Woven::set_flatness).
     Flatness(f32),
     /// All threads further apart.
     Spacing {

@@ -19,8 +19,8 @@ pub(super) const WIDER: f64 = 1.05;
 /// [`WIDER`] at which nothing jams, and end at 2.8 times that (1.05 to the power of 21).
 const WIDER_TIMES: i32 = 22;
 
-/// The most crossings of a sample that holds two or three repeats of a cloth. In a cloth with larger
-/// repeats, the threads around its worst places are the samples.
+/// The most crossings of a sample that holds two or three repeats of a cloth. In a cloth with
+/// larger repeats, the threads around its worst places are the samples.
 const REPEATS_MOST: usize = 4_096;
 
 /// Number of threads that are left beside the repeats.

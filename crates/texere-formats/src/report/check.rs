@@ -205,8 +205,8 @@ impl CheckReport {
     /// report. Changes of woven cloth are tried on the cloth as its structure places it. If the
     /// cloth has settled, wider spacings and thinner yarns are tried, and settle on `device`. No
     /// changes are tried for cloth that its design stretches, nor for knits. More rings are tried
-    /// for any cloth whose mesh is wrung or inside out. `progress` gets the share that is done, from
-    /// 0 to 1. If it asks to stop, only the cures found so far are reported.
+    /// for any cloth whose mesh is wrung or inside out. `progress` gets the share that is done,
+    /// from 0 to 1. If it asks to stop, only the cures found so far are reported.
     ///
     /// **Errors**: a [`Refusal`] if the cloth can't be measured.
     pub fn find_cures(

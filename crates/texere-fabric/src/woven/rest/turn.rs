@@ -35,8 +35,8 @@ const WAYS: usize = BENDS + 2 * BESIDE;
 const SMOOTHINGS: usize = 2;
 
 /// The radius of the bends before they are smoothed, as a multiple of the yarn's half width. The
-/// spline's tightest bend has 0.71 of it or more, whatever the distance of picks. With 1.35 bends of
-/// the tested cloths are wide enough, too, but with less to spare. With 1.2 `turns_do_not_fold`
+/// spline's tightest bend has 0.71 of it or more, whatever the distance of picks. With 1.35 bends
+/// of the tested cloths are wide enough, too, but with less to spare. With 1.2 `turns_do_not_fold`
 /// fails.
 const WIDE: f64 = 1.45;
 

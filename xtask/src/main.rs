@@ -76,7 +76,7 @@ fn main() -> ExitCode {
                 "  test   all tests, doctests, the conformance suite and the tests of the Python package"
             );
             eprintln!(
-                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts, the README's main command and programs that link the C library"
+                "  check  formatting, lints, docs, licences, spelling, packages, instruction counts, the demo's picture and programs that link the C library"
             );
             eprintln!("  hosts  programs in C, C++ and C# that link the installed library");
             eprintln!("  python  builds the Python package, installs it in target/python and tests it");

@@ -17,8 +17,8 @@ const LIMIT: Duration = Duration::from_secs(20);
 /// The most memory that the whole program may take while it handles an input, MiB.
 const MEMORY_MIB: f32 = 1024.0;
 
-/// One input in this many goes on to mesh, clearance and rest, which take ten times as long as all
-/// before. All others end at their yarns.
+/// One input in this many goes on to mesh, clearance and rest, which take several times as long as
+/// all before. All others end at their yarns.
 const DEEP: u64 = 8;
 
 /// Runs the inputs with these numbers. Returns the number of inputs that were accepted and passed

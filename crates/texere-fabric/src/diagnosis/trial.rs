@@ -91,10 +91,8 @@ fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
 /// Two or three repeats of the cloth and some threads more, if these are few. Both edges are those
 /// of the cloth.
 pub(super) fn repeats(cloth: &Woven) -> Option<Vec<Sample>> {
-    let (repeat, counts) = (cloth.repeat(), [cloth.warp().len(), cloth.weft().len()]);
-    let left =
-        |count: usize, repeat: usize| count - count.saturating_sub(2 * repeat + BESIDE) / repeat * repeat;
-    let sample = [0, 1].map(|set| 0..left(counts[set], repeat[set]));
+    let repeat = cloth.repeat();
+    let sample = cloth.cropped(repeat, repeat.map(|threads| 2 * threads + BESIDE)).map(|count| 0..count);
     (sample[0].len() * sample[1].len() <= REPEATS_MOST).then(|| vec![sample])
 }
 

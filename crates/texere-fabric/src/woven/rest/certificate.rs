@@ -129,8 +129,7 @@ fn once(piece: &Woven, yarns: &Yarns, repeat: [usize; 2]) -> Vec<bool> {
 /// The cloth without most of its repeats. One repeat and some more threads are left, with both
 /// edges as they are.
 pub(super) fn crop(cloth: &Woven, repeat: [usize; 2]) -> Result<Woven, FabricError> {
-    let left = |count: usize, repeat: usize| count - count.saturating_sub(repeat + BEYOND) / repeat * repeat;
-    let [ends, picks] = [left(cloth.warp().len(), repeat[0]), left(cloth.weft().len(), repeat[1])];
+    let [ends, picks] = cloth.cropped(repeat, repeat.map(|threads| threads + BEYOND));
     let drawdown = Drawdown::from_fn(ends, picks, |end, pick| cloth.drawdown().up(end, pick))?;
     let (warp, weft) = (cloth.warp()[..ends].to_vec(), cloth.weft()[..picks].to_vec());
     cloth.like(drawdown, warp, weft)

@@ -79,6 +79,13 @@ impl Woven {
         self.period_of(|_| None::<u32>)
     }
 
+    /// Numbers of ends and picks that are left once whole repeats are cut out of the cloth, with
+    /// both edges as they are. At least `fewest` are left, if the cloth has them.
+    pub(crate) fn cropped(&self, repeat: [usize; 2], fewest: [usize; 2]) -> [usize; 2] {
+        let counts = [self.warp().len(), self.weft().len()];
+        [0, 1].map(|set| counts[set] - counts[set].saturating_sub(fewest[set]) / repeat[set] * repeat[set])
+    }
+
     /// Numbers of ends and picks after which threads also weigh the same. A pattern of yarns may be
     /// longer than the weave's repeat.
     pub(in crate::woven) fn repeat_by_weight(&self) -> [usize; 2] {

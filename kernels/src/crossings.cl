@@ -22,11 +22,12 @@ typedef struct {
     uint padding[2];
 } CrossingsParams;
 
-// Rust: texere_gpu::ThreadRow, 32 bytes.
+// Rust: texere_gpu::ThreadRow, 36 bytes.
 typedef struct {
     float gap;
     float radius;
     float stiffness;
+    float least_area;
     float freedom;
     float height;
     int level;

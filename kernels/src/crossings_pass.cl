@@ -119,17 +119,22 @@ float largest(float4 one) {
     return fmax(fmax(all.x, all.y), fmax(all.z, all.w));
 }
 
-// Moves one thread of a crossing, and returns how far it moved.
-float move_thread(const Cloth *cloth, __global float4 *crossings, __global float4 *next, uint number, uint2 site,
-                  uint of_set, float4 step) {
+// Moves one thread of a crossing, and returns by how much.
+float4 move_thread(const Cloth *cloth, __global float4 *crossings, uint number, uint2 site, uint of_set, float4 step) {
     ThreadRow thread = thread_of(cloth, site, of_set);
     size_t lie = 2u * (size_t)number + of_set;
     float4 was = crossings[lie];
     float4 moved = bounded(cloth->found[lie] + step, &thread);
-    // The next pass reads this lie moved further by a share of this step (momentum).
-    next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), &thread);
     crossings[lie] = moved;
-    return largest(moved - was);
+    return moved - was;
+}
+
+// Writes the lie that the next pass reads: the lie after this pass, moved by `on` (momentum).
+void move_on(const Cloth *cloth, const __global float4 *crossings, __global float4 *next, uint number, uint2 site,
+             uint of_set, float4 on) {
+    ThreadRow thread = thread_of(cloth, site, of_set);
+    size_t lie = 2u * (size_t)number + of_set;
+    next[lie] = bounded(crossings[lie] + on, &thread);
 }
 
 // Moves a crossing. Returns the longest step and the least clearance.
@@ -139,9 +144,19 @@ float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global fl
     Pair step = step_of(&block);
     float longest = fmax(largest(step.warp), largest(step.weft));
     float share = longest > CROSSINGS_STEP ? CROSSINGS_STEP / longest : 1.0f;
-    float warp = move_thread(cloth, crossings, next, number, site, WARP, share * step.warp);
-    float weft = move_thread(cloth, crossings, next, number, site, WEFT, share * step.weft);
-    return (float2)(fmax(warp, weft), block.clearance);
+    float4 warp = move_thread(cloth, crossings, number, site, WARP, share * step.warp);
+    float4 weft = move_thread(cloth, crossings, number, site, WEFT, share * step.weft);
+    // Momentum that would lead uphill in the energy is dropped.
+    float rise = dot4(block.own, warp) + dot4(block.crossed, weft);
+    float slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
+    float steepest = sqrt((dot4(warp, warp) + dot4(weft, weft)) * slopes);
+    float momentum = CROSSINGS_MOMENTUM;
+    if (rise > 0.0f) {
+        momentum *= fmax(1.0f - rise / (CROSSINGS_UPHILL * steepest), 0.0f);
+    }
+    move_on(cloth, crossings, next, number, site, WARP, momentum * warp);
+    move_on(cloth, crossings, next, number, site, WEFT, momentum * weft);
+    return (float2)(fmax(largest(warp), largest(weft)), block.clearance);
 }
 
 // The longest step and the least clearance of two rows.

@@ -21,15 +21,23 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, and the press.
-void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, float radius) {
+// Adds the terms of the section: its shape, its area, its least area, and the press.
+void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const ThreadRow *thread) {
+    float radius = thread->radius;
     float wide = lie.z / radius;
     float thick = lie.w / radius;
     float4 aspect = (float4)(0.0f, 0.0f, 1.0f / radius, -CROSSINGS_ASPECT / radius);
     add_own(block, CROSSINGS_SHAPE, 1.0f, wide - CROSSINGS_ASPECT * thick, aspect);
     float gain = wide * thick - cloth->params->area;
-    float weight = gain < 0.0f ? CROSSINGS_AREA_LOSS : CROSSINGS_AREA_GAIN;
-    add_own(block, weight, 1.0f, gain, (float4)(0.0f, 0.0f, thick / radius, wide / radius));
+    // Near its full area a section grows no faster than a section above it shrinks.
+    float weight = gain < -CROSSINGS_NEAR ? CROSSINGS_AREA_LOSS : CROSSINGS_AREA_GAIN;
+    float residual = gain < 0.0f ? CROSSINGS_AREA_LOSS / weight * gain : gain;
+    float4 slopes = (float4)(0.0f, 0.0f, thick / radius, wide / radius);
+    add_own(block, weight, 1.0f, residual, slopes);
+    float room = wide * thick - thread->least_area * cloth->params->area - CROSSINGS_MARGIN;
+    if (room < CROSSINGS_NEAR) {
+        add_own(block, CROSSINGS_SOLID * cloth->params->penalty, 1.0f, fmin(room, 0.0f), slopes);
+    }
     float press = CROSSINGS_PRESS * cloth->params->press * 4.0f * radius * radius;
     add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
 }
@@ -128,8 +136,13 @@ void add_meeting(const Cloth *cloth, CrossingBlock *block, uint of_set, const Al
     float4 one = lie_of(cloth, first->site, 1u - of_set);
     float4 two = lie_of(cloth, last->site, 1u - of_set);
     float side = side_of(cloth, first->site, of_set);
-    Meeting meeting = side == side_of(cloth, last->site, of_set) ? shoulder(side, first, last, one, two, second)
-                                                              : passage(side, first, last, one, two, second);
+    bool stays = side == side_of(cloth, last->site, of_set);
+    // A level thread clears the shoulder if it clears the thread where they cross.
+    if (stays && fabs(last->lie.y - first->lie.y) < CROSSINGS_NEAR) {
+        return;
+    }
+    Meeting meeting = stays ? shoulder(side, first, last, one, two, second)
+                            : passage(side, first, last, one, two, second);
     see(block, meeting.clearance);
     if (meeting.room < CROSSINGS_NEAR) {
         add_between(block, cloth->params->penalty, 2.0f, fmin(meeting.room, 0.0f), meeting.slopes, meeting.crossed);
@@ -233,8 +246,8 @@ float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
     return fmax(falls, rises);
 }
 
-// Adds the term of the contact between both threads of a crossing, one on top of the other. The
-// block is described from the warp.
+// Adds the term of the contact between both threads of a crossing, one on top of the other. Threads
+// that bend round one another touch. The block is described from the warp.
 void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);
@@ -243,7 +256,8 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     // reaches further.
     float2 slope = (float2)(0.0f, 0.0f);
     bool layered = (cloth->params->flags & LAYERED) != 0u;
-    if (layered && thread_of(cloth, site, WARP).level != thread_of(cloth, site, WEFT).level) {
+    bool together = thread_of(cloth, site, WARP).level == thread_of(cloth, site, WEFT).level;
+    if (layered && !together) {
         slope = CROSSINGS_STEEPER * (float2)(slope_of(cloth, site, WEFT), slope_of(cloth, site, WARP));
     }
     float2 x = (float2)(warp.z, weft.z) * slope;
@@ -253,10 +267,14 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float need = reach.x + reach.y;
     see(block, apart / need);
     float room = apart - need - CROSSINGS_MARGIN;
-    if (room < CROSSINGS_NEAR) {
+    bool near = room < CROSSINGS_NEAR;
+    float pull = layered && together ? CROSSINGS_TOUCH : 0.0f;
+    if (near || pull > 0.0f) {
+        float weight = near ? cloth->params->penalty : pull;
+        float residual = room < 0.0f ? room : pull / weight * room;
         float2 wider = -x * slope / reach;
         float2 thicker = -z / reach;
-        add_both(block, cloth->params->penalty, fmin(room, 0.0f), (float4)(0.0f, side, wider.x, thicker.x),
+        add_both(block, weight, residual, (float4)(0.0f, side, wider.x, thicker.x),
                  (float4)(0.0f, -side, wider.y, thicker.y));
     }
 }
@@ -270,7 +288,7 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     Along here = along_of(cloth, site, of_set, 0);
     Along after = along_of(cloth, site, of_set, 1);
     Along two_after = along_of(cloth, site, of_set, 2);
-    add_section(cloth, block, here.lie, radius);
+    add_section(cloth, block, here.lie, &thread);
     // The slopes of the second differences in this crossing's unknowns are 1, -2 and 1.
     add_bend(block, &thread, &two_before, &before, &here, 1.0f, 4.0f);
     add_bend(block, &thread, &before, &here, &after, -2.0f, 2.0f);

@@ -120,16 +120,19 @@ fn largest(one: vec4<f32>) -> f32 {
     return max(max(all.x, all.y), max(all.z, all.w));
 }
 
-// Moves one thread of a crossing, and returns how far it moved.
-fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> f32 {
-    let thread = thread_of(site, of_set);
+// Moves one thread of a crossing, and returns by how much.
+fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> vec4<f32> {
     let lie = 2u * number + of_set;
     let was = crossings[lie];
-    let moved = bounded(found[lie] + step, thread);
-    // The next pass reads this lie moved further by a share of this step (momentum).
-    next[lie] = bounded(moved + CROSSINGS_MOMENTUM * (moved - was), thread);
+    let moved = bounded(found[lie] + step, thread_of(site, of_set));
     crossings[lie] = moved;
-    return largest(moved - was);
+    return moved - was;
+}
+
+// Writes the lie that the next pass reads: the lie after this pass, moved by `on` (momentum).
+fn move_on(number: u32, site: vec2<u32>, of_set: u32, on: vec4<f32>) {
+    let lie = 2u * number + of_set;
+    next[lie] = bounded(crossings[lie] + on, thread_of(site, of_set));
 }
 
 // Moves a crossing. Returns the longest step and the least clearance.
@@ -144,7 +147,17 @@ fn move_crossing(number: u32) -> vec2<f32> {
     }
     let warp = move_thread(number, site, WARP, share * step.warp);
     let weft = move_thread(number, site, WEFT, share * step.weft);
-    return vec2(max(warp, weft), block.clearance);
+    // Momentum that would lead uphill in the energy is dropped.
+    let rise = dot4(block.own, warp) + dot4(block.crossed, weft);
+    let slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
+    let steepest = sqrt((dot4(warp, warp) + dot4(weft, weft)) * slopes);
+    var momentum = CROSSINGS_MOMENTUM;
+    if rise > 0.0 {
+        momentum *= max(1.0 - rise / (CROSSINGS_UPHILL * steepest), 0.0);
+    }
+    move_on(number, site, WARP, momentum * warp);
+    move_on(number, site, WEFT, momentum * weft);
+    return vec2(max(largest(warp), largest(weft)), block.clearance);
 }
 
 // The longest step and the least clearance of two rows.

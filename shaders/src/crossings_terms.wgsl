@@ -24,15 +24,23 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, and the press.
-fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, radius: f32) {
+// Adds the terms of the section: its shape, its area, its least area, and the press.
+fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: ThreadRow) {
+    let radius = thread.radius;
     let wide = lie.z / radius;
     let thick = lie.w / radius;
     let aspect = vec4(0.0, 0.0, 1.0 / radius, -CROSSINGS_ASPECT / radius);
     add_own(block, CROSSINGS_SHAPE, 1.0, wide - CROSSINGS_ASPECT * thick, aspect);
     let gain = wide * thick - cloth.area;
-    let weight = select(CROSSINGS_AREA_GAIN, CROSSINGS_AREA_LOSS, gain < 0.0);
-    add_own(block, weight, 1.0, gain, vec4(0.0, 0.0, thick / radius, wide / radius));
+    // Near its full area a section grows no faster than a section above it shrinks.
+    let weight = select(CROSSINGS_AREA_GAIN, CROSSINGS_AREA_LOSS, gain < -CROSSINGS_NEAR);
+    let residual = select(gain, CROSSINGS_AREA_LOSS / weight * gain, gain < 0.0);
+    let slopes = vec4(0.0, 0.0, thick / radius, wide / radius);
+    add_own(block, weight, 1.0, residual, slopes);
+    let room = wide * thick - thread.least_area * cloth.area - CROSSINGS_MARGIN;
+    if room < CROSSINGS_NEAR {
+        add_own(block, CROSSINGS_SOLID * cloth.penalty, 1.0, min(room, 0.0), slopes);
+    }
     let press = CROSSINGS_PRESS * cloth.press * 4.0 * radius * radius;
     add_alone(block, vec4(0.0, press, 0.0, 0.0), 1.0, lie, 1.0);
 }
@@ -124,6 +132,10 @@ fn add_meeting(block: ptr<function, CrossingBlock>, of_set: u32, first: Along, l
     let side = side_of(first.site, of_set);
     var meeting: Meeting;
     if side == side_of(last.site, of_set) {
+        // A level thread clears the shoulder if it clears the thread where they cross.
+        if abs(last.lie.y - first.lie.y) < CROSSINGS_NEAR {
+            return;
+        }
         meeting = shoulder(side, first, last, one, two, second);
     } else {
         meeting = passage(side, first, last, one, two, second);
@@ -243,8 +255,8 @@ fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
     return steepest;
 }
 
-// Adds the term of the contact between both threads of a crossing, one on top of the other. The
-// block is described from the warp.
+// Adds the term of the contact between both threads of a crossing, one on top of the other. Threads
+// that bend round one another touch. The block is described from the warp.
 fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);
@@ -252,7 +264,9 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     var slope = vec2(0.0);
-    if (cloth.flags & LAYERED) != 0u && thread_of(site, WARP).level != thread_of(site, WEFT).level {
+    let layered = (cloth.flags & LAYERED) != 0u;
+    let together = thread_of(site, WARP).level == thread_of(site, WEFT).level;
+    if layered && !together {
         slope = CROSSINGS_STEEPER * vec2(slope_of(site, WEFT), slope_of(site, WARP));
     }
     let x = vec2(warp.z, weft.z) * slope;
@@ -262,11 +276,15 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let need = reach.x + reach.y;
     see(block, apart / need);
     let room = apart - need - CROSSINGS_MARGIN;
-    if room < CROSSINGS_NEAR {
+    let near = room < CROSSINGS_NEAR;
+    let pull = select(0.0, CROSSINGS_TOUCH, layered && together);
+    if near || pull > 0.0 {
+        let weight = select(pull, cloth.penalty, near);
+        let residual = select(pull / weight * room, room, room < 0.0);
         let wider = -x * slope / reach;
         let thicker = -z / reach;
         let own = vec4(0.0, side, wider.x, thicker.x);
-        add_both(block, cloth.penalty, min(room, 0.0), own, vec4(0.0, -side, wider.y, thicker.y));
+        add_both(block, weight, residual, own, vec4(0.0, -side, wider.y, thicker.y));
     }
 }
 
@@ -279,7 +297,7 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     let here = along_of(site, of_set, 0);
     let after = along_of(site, of_set, 1);
     let two_after = along_of(site, of_set, 2);
-    add_section(block, here.lie, radius);
+    add_section(block, here.lie, thread);
     // The slopes of the second differences in this crossing's unknowns are 1, -2 and 1.
     add_bend(block, thread, two_before, before, here, 1.0, 4.0);
     add_bend(block, thread, before, here, after, -2.0, 2.0);

@@ -101,7 +101,7 @@ impl CrossingsSettler for SabotagedCrossings {
             let moved = by.moved(&found[number], &block, site);
             *next = match self.sabotage {
                 CrossingsSabotage::LostMomentum => moved,
-                _ => by.ahead(crossing, &moved, site),
+                _ => by.ahead(crossing, &moved, &block, site),
             };
             seen = seen.and(CrossingsSeen { step: moved.difference(crossing), clearance: block.clearance });
             *crossing = moved;

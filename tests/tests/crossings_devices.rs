@@ -27,6 +27,7 @@ fn even(
         pitch: pitch[set],
         diameter: diameter[set],
         stiffness: 1.0,
+        least_area: 0.75,
         level: 0,
     });
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
@@ -45,6 +46,7 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
             pitch: pitch * (1.0 + 0.2 * chance()),
             diameter: 0.3 * (1.0 + 0.3 * chance()),
             stiffness: 1.0 + 0.5 * chance(),
+            least_area: 0.75,
             level: 0,
         };
         (0..count).map(thread).collect()
@@ -62,6 +64,7 @@ fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
             pitch: spacing / levels as f32,
             diameter: 0.2,
             stiffness: 1.0,
+            least_area: 0.75,
             level: levels - 1 - number as u32 % levels,
         };
         (0..count).map(thread).collect()
@@ -100,7 +103,9 @@ fn cloths() -> Vec<(&'static str, Crossings)> {
         ("treble cloth", layers([3, 3], [6, 6])),
         ("weft-backed cloth", layers([1, 2], [4, 8])),
         ("a piece of double cloth", layers([2, 2], [13, 11]).repeats(false, false)),
-        ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false)),
+        // Its open edges slide for more than three hundred passes. How many it takes until they are
+        // still depends on roundings, so it is compared on the way.
+        ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false).passes(200)),
         ("uneven", uneven(37, 29)),
         ("uneven, ends repeat", uneven(12, 9).repeats(true, false)),
         ("uneven, picks repeat", uneven(11, 14).repeats(false, true)),

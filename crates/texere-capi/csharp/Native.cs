@@ -3030,9 +3030,11 @@ namespace Texere
         /// </summary>
         public uint section;
         /// <summary>
-        ///  Zero.
+        ///  Least area that the yarn's section keeps when the yarns come to rest, as a share of the
+        ///  round yarn's section, up to 1: fibres can't be packed more closely. 0 stands for that of
+        ///  cotton, 0.7476.
         /// </summary>
-        public uint reserved;
+        public float least_area;
     }
 
     /// <summary>

@@ -1144,8 +1144,10 @@ typedef struct texere_thread {
   uint32_t material;
   // The number of its section, from 0.
   uint32_t section;
-  // Zero.
-  uint32_t reserved;
+  // Least area that the yarn's section keeps when the yarns come to rest, as a share of the
+  // round yarn's section, up to 1: fibres can't be packed more closely. 0 stands for that of
+  // cotton, 0.7476.
+  float least_area;
 } texere_thread;
 
 // Lists of numbers, which lie one behind the other in one array.

@@ -4,6 +4,7 @@
 use std::ffi::c_char;
 
 use texere::woven::{Crimp, Draft, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
+use texere::yarn::COTTON_LEAST_AREA;
 use texere::{Design, Structure};
 
 use crate::argument::text;
@@ -39,8 +40,10 @@ pub struct texere_thread {
     pub material: u32,
     /// The number of its section, from 0.
     pub section: u32,
-    /// Zero.
-    pub reserved: u32,
+    /// Least area that the yarn's section keeps when the yarns come to rest, as a share of the
+    /// round yarn's section, up to 1: fibres can't be packed more closely. 0 stands for that of
+    /// cotton, 0.7476.
+    pub least_area: f32,
 }
 
 /// Threads bend round one another as round threads do, and floats lie flat.
@@ -107,13 +110,15 @@ grows_after!(texere_woven, looks);
 
 impl texere_thread {
     fn read(&self) -> Thread {
-        let Self { spacing_mm, diameter_mm, flatness, stiffness, twist, material, section, .. } = *self;
+        let Self { spacing_mm, diameter_mm, flatness, stiffness, twist, material, section, least_area } =
+            *self;
         let or_one = |value: f32| if value == 0.0 { 1.0 } else { value };
         Thread {
             spacing_mm,
             radius_mm: (diameter_mm / 2.0) as f32,
             flatness: or_one(flatness),
             stiffness: or_one(stiffness),
+            least_area: if least_area == 0.0 { COTTON_LEAST_AREA } else { least_area },
             material,
             section,
             twist,

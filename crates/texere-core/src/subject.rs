@@ -42,6 +42,8 @@ pub enum Subject {
     Flatness(Origin),
     /// The stiffness of a thread.
     Stiffness(Origin),
+    /// The least area of a thread's section.
+    LeastArea(Origin),
     /// The twist of a thread.
     Twist(Origin),
     /// The colour or material of a thread.
@@ -124,6 +126,7 @@ impl CrossingsError {
                 match *setting {
                     "pitch" => Subject::Spacing(thread),
                     "stiffness" => Subject::Stiffness(thread),
+                    "least area" => Subject::LeastArea(thread),
                     "diameter" => Subject::Thickness(thread),
                     _ => Subject::Structure,
                 }

@@ -52,7 +52,7 @@ pub(crate) fn step(
     let site = plan.site(number);
     let block = plan.block(pass, found, site);
     let moved = plan.moved(&found[number], &block, site);
-    *next = plan.ahead(crossing, &moved, site);
+    *next = plan.ahead(crossing, &moved, &block, site);
     let seen = CrossingsSeen { step: moved.difference(crossing), clearance: block.clearance };
     *crossing = moved;
     seen

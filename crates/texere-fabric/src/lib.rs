@@ -37,6 +37,7 @@
 
 mod diagnosis;
 mod error;
+mod fibre;
 mod look_alike;
 mod measures;
 mod own;
@@ -57,6 +58,7 @@ pub use diagnosis::{
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use error::FabricError;
+pub use fibre::{COTTON_LEAST_AREA, Fibre, PACKING};
 pub use look_alike::hyphen_look_alike;
 pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
@@ -72,6 +74,6 @@ pub use woven::{
 };
 pub use yarn_check::ThreadError;
 pub use yarn_size::{
-    COTTON_DENSITY, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
+    COTTON_DENSITY, density_from_tex, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
     tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
 };

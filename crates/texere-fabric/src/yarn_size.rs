@@ -30,6 +30,19 @@ pub fn diameter_mm(tex: f64, density: f64) -> f64 {
     (4.0 * tex / (1000.0 * PI * density)).sqrt()
 }
 
+/// Density (g/cm³) of a round yarn of `tex` (g/km) and `diameter_mm`, the air in it included. It is
+/// the inverse of [`diameter_mm`].
+///
+/// ```
+/// use texere_fabric::{COTTON_DENSITY, density_from_tex, diameter_mm};
+/// let density = density_from_tex(30.0, diameter_mm(30.0, COTTON_DENSITY));
+/// assert!((density - COTTON_DENSITY).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn density_from_tex(tex: f64, diameter_mm: f64) -> f64 {
+    4.0 * tex / (1000.0 * PI * diameter_mm * diameter_mm)
+}
+
 /// Linear density (tex, g/km) of a round yarn of `diameter_mm` and `density` (g/cm³). It is the
 /// inverse of [`diameter_mm`].
 ///

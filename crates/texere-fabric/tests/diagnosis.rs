@@ -119,7 +119,7 @@ fn cures_at_rest_are_clean_at_rest() {
             shares.push(share);
             ControlFlow::Continue(())
         });
-        assert!(shares.is_sorted() && shares.iter().all(|share| (0.0..1.0).contains(share)), "{shares:?}");
+        assert!(shares.is_sorted() && shares.iter().all(|share| (0.0..=1.0).contains(share)), "{shares:?}");
         assert_eq!(cures.len(), 2, "{weave}");
         for cure in cures {
             let changed = match cure.remedy {

@@ -433,6 +433,8 @@ fn faults_are_named_with_their_line() {
     );
     refused("plies = 2", "section = { shape = \"blob\" }", &["line 12", "blob"]);
     refused("twist_per_m = -500.0", "twist_per_m = 1e9", &["yarns.indigo.twist_per_m"]);
+    refused("twist_per_m = -500.0", "fibre = \"hemp\"", &["line 9", "yarns.indigo.fibre", "hemp", "wool"]);
+    refused("twist_per_m = -500.0", "packing = 0.95", &["yarns.indigo.packing", "0.95", "0.1", "0.91"]);
     refused("twist_per_m = -500.0", "stiffness = 200.0", &["yarns.indigo.stiffness", "200", "0.01", "100"]);
     for value in ["-0.1", "30.5", "nan"] {
         let line = format!("twist_per_m = -500.0\nhairiness = {value}");
@@ -530,10 +532,41 @@ fn bytes_that_are_not_text_are_refused() {
     assert!(error.contains("line 2"), "{error}");
 }
 
+/// What a yarn can be squeezed to follows from its own density, and from how dense its fibre is.
+#[test]
+fn a_yarn_keeps_its_own_density_over_that_of_its_packed_fibre() {
+    let least = |lines: &str| {
+        let text = DENIM.replace("tex = 84.0", lines);
+        cloth(&text).warp()[0].least_area
+    };
+    let off = |lines: &str, expected: f64| {
+        let found = f64::from(least(lines));
+        assert!((found - expected).abs() < 1e-6, "{lines}: {found}, not {expected}");
+    };
+    let (peirce, cotton) = (1.0 / 1.1, 1.52);
+    off("tex = 84.0", peirce / (0.8 * cotton));
+    off("diameter_mm = 0.3", peirce / (0.8 * cotton));
+    off("tex = 84.0\ndensity = 0.6", 0.6 / (0.8 * cotton));
+    off("tex = 84.0\npacking = 0.9", peirce / (0.9 * cotton));
+    // A yarn of wool has as much air in it as one of cotton, unless its density is given.
+    off("tex = 84.0\nfibre = \"wool\"", peirce / (0.8 * cotton));
+    off("tex = 84.0\nfibre = \"wool\"\ndensity = 0.7", 0.7 / (0.8 * 1.31));
+    // Tex and diameter give the density: 84 g a kilometre fill a section of a quarter of pi times
+    // 0.16 mm².
+    off("tex = 84.0\ndiameter_mm = 0.4", 84.0 / (250.0 * std::f64::consts::PI * 0.16) / (0.8 * cotton));
+    // A yarn as dense as its packed fibre can't be squeezed.
+    off("tex = 84.0\ndensity = 1.4", 1.0);
+    off("tex = 84.0\nleast_area = 0.5", 0.5);
+    // Of the same tex, a yarn of a lighter fibre is thicker.
+    let radius = |lines: &str| cloth(&DENIM.replace("tex = 84.0", lines)).warp()[0].radius_mm;
+    let thicker = radius("tex = 84.0\nfibre = \"nylon\"") / radius("tex = 84.0");
+    assert!((thicker.powi(2) - 1.52 / 1.14).abs() < 1e-5, "{thicker}");
+}
+
 /// The limit that a refusal names is itself allowed.
 #[test]
 fn limits_themselves_are_taken() {
-    let limits = ["stiffness", "flatness", "hairiness"].map(|key| {
+    let limits = ["stiffness", "flatness", "hairiness", "packing", "least_area"].map(|key| {
         let outside = DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = 1e6"));
         let Err(ReadError::OutOfRange { low, high, .. }) = read_text(&outside) else { panic!("{key}") };
         (key, [low, high])

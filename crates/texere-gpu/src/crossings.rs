@@ -12,7 +12,7 @@ pub const CROSSINGS_PASSES: u32 = 16;
 
 /// A thread. Lengths are in the plan's unit.
 ///
-/// **Shape**: five `f32` and three `i32`, 32 bytes. A table has all ends, then all picks.
+/// **Shape**: six `f32` and three `i32`, 36 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
@@ -22,6 +22,8 @@ pub struct ThreadRow {
     pub radius: f32,
     /// The thread's stiffness against bending.
     pub stiffness: f32,
+    /// The least area of the thread's section, as a share of its area.
+    pub least_area: f32,
     /// The largest shift of the thread to either side.
     pub freedom: f32,
     /// The largest height of the thread, up or down.
@@ -34,7 +36,7 @@ pub struct ThreadRow {
     pub after: i32,
 }
 
-const _: () = assert!(size_of::<ThreadRow>() == 32 && std::mem::offset_of!(ThreadRow, after) == 28);
+const _: () = assert!(size_of::<ThreadRow>() == 36 && std::mem::offset_of!(ThreadRow, after) == 32);
 
 /// The parameters of a pass.
 ///
@@ -87,8 +89,10 @@ impl ThreadRow {
     /// The rows of all threads of `plan`.
     #[must_use]
     pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
-        let row = |&Row { gap, radius, stiffness, freedom, height, level, beside: [before, after] }: &Row| {
-            Self { gap, radius, stiffness, freedom, height, level, before, after }
+        let row = |row: &Row| {
+            let &Row { gap, radius, stiffness, least_area, freedom, height, level, beside } = row;
+            let [before, after] = beside;
+            Self { gap, radius, stiffness, least_area, freedom, height, level, before, after }
         };
         Set::BOTH.into_iter().flat_map(|set| plan.rows(set)).map(row).collect()
     }
@@ -107,7 +111,7 @@ impl CrossingsParams {
     /// ```
     /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, CrossingThread};
     /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
-    /// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
+    /// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);

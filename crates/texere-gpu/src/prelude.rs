@@ -142,11 +142,12 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
 /// The constants of settling by crossings, which are also written before all sources. The flags
 /// `REPEATS_ENDS`, `REPEATS_PICKS` and `LAYERED` belong to [`CrossingsParams`]. All others are
 /// constants of the core.
-pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
+pub const CROSSINGS_CONSTANTS: [Constant; 30] = [
     float("CROSSINGS_ASPECT", crossings::ASPECT),
     float("CROSSINGS_SHAPE", crossings::SHAPE),
     float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
     float("CROSSINGS_AREA_GAIN", crossings::AREA_GAIN),
+    float("CROSSINGS_SOLID", crossings::SOLID),
     float("CROSSINGS_BEND", crossings::BEND),
     float("CROSSINGS_SIDEWAYS_BEND", crossings::SIDEWAYS_BEND),
     float("CROSSINGS_TENSION", crossings::TENSION),
@@ -157,8 +158,10 @@ pub const CROSSINGS_CONSTANTS: [Constant; 27] = [
     float("CROSSINGS_NEAR", crossings::NEAR),
     float("CROSSINGS_DAMPING", crossings::DAMPING),
     float("CROSSINGS_PIVOT", crossings::PIVOT),
+    float("CROSSINGS_TOUCH", crossings::TOUCH),
     float("CROSSINGS_STEEPER", crossings::STEEPER),
     float("CROSSINGS_MOMENTUM", crossings::MOMENTUM),
+    float("CROSSINGS_UPHILL", crossings::UPHILL),
     float("CROSSINGS_STEP", crossings::STEP),
     float("CROSSINGS_HALF_WIDTH_LEAST", crossings::HALF_WIDTH[0]),
     float("CROSSINGS_HALF_WIDTH_MOST", crossings::HALF_WIDTH[1]),
@@ -214,7 +217,7 @@ mod tests {
 
     /// The constants that come from the core, each named once more. The test fails if a value in
     /// the tables above differs.
-    const OF_THE_CORE: [(&str, &[f32]); 84] = [
+    const OF_THE_CORE: [(&str, &[f32]); 87] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -279,6 +282,7 @@ mod tests {
         ("CROSSINGS_SHAPE", &[crossings::SHAPE]),
         ("CROSSINGS_AREA_LOSS", &[crossings::AREA_LOSS]),
         ("CROSSINGS_AREA_GAIN", &[crossings::AREA_GAIN]),
+        ("CROSSINGS_SOLID", &[crossings::SOLID]),
         ("CROSSINGS_BEND", &[crossings::BEND]),
         ("CROSSINGS_SIDEWAYS_BEND", &[crossings::SIDEWAYS_BEND]),
         ("CROSSINGS_TENSION", &[crossings::TENSION]),
@@ -289,8 +293,10 @@ mod tests {
         ("CROSSINGS_NEAR", &[crossings::NEAR]),
         ("CROSSINGS_DAMPING", &[crossings::DAMPING]),
         ("CROSSINGS_PIVOT", &[crossings::PIVOT]),
+        ("CROSSINGS_TOUCH", &[crossings::TOUCH]),
         ("CROSSINGS_STEEPER", &[crossings::STEEPER]),
         ("CROSSINGS_MOMENTUM", &[crossings::MOMENTUM]),
+        ("CROSSINGS_UPHILL", &[crossings::UPHILL]),
         ("CROSSINGS_STEP", &[crossings::STEP]),
         ("CROSSINGS_HALF_WIDTH_LEAST", &[crossings::HALF_WIDTH[0]]),
         ("CROSSINGS_HALF_WIDTH_MOST", &[crossings::HALF_WIDTH[1]]),

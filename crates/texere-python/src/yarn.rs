@@ -4,17 +4,22 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use texere::weft::KnitYarn;
 use texere::woven::Thread;
-use texere::yarn::{COTTON_DENSITY, Material, Section, diameter_mm, twist_from_turns_per_m};
+use texere::yarn::{
+    Fibre, Material, PACKING, Section, density_from_tex, diameter_mm, twist_from_turns_per_m,
+};
 
 /// A yarn as it lies on the bobbin: what a design in code is made of.
 ///
 /// ``diameter_mm`` is the diameter of the round yarn. If it is not given, it is computed from
-/// ``tex`` (g/km) and ``density`` (g/cm³, by default that of cotton yarn). ``twist_per_m`` is turns
-/// per metre, above 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to 255, sRGB.
-/// ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect, distortion)``,
-/// ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness`` (width over height
-/// in the cloth, 0.1 to 10) and ``stiffness`` (0.01 to 100, 1 for cotton) count in woven cloth
-/// alone. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
+/// ``tex`` (g/km) and ``density`` (g/cm³, by default that of a yarn of the fibre). ``twist_per_m``
+/// is turns per metre, above 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to
+/// 255, sRGB. ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect,
+/// distortion)``, ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness``
+/// (width over height in the cloth, 0.1 to 10) and ``stiffness`` (0.01 to 100, 1 for cotton) count
+/// in woven cloth alone, as do ``fibre`` (``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``,
+/// ``"silk"``, ``"viscose"`` or ``"wool"``) and ``packing``, the largest share of its section that
+/// the fibre of a squeezed yarn fills, up to 0.91. ``hairiness``, 0 to 30, is the H of Uster
+/// testers; pictures show it.
 ///
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>
@@ -35,12 +40,13 @@ pub(crate) struct YarnSpec {
     twist: f32,
     flatness: f32,
     stiffness: f32,
+    least_area: f32,
 }
 
 #[pymethods]
 impl YarnSpec {
     #[new]
-    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=0.0, section=None, flatness=1.0, stiffness=1.0, hairiness=0.0))]
+    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=0.0, section=None, flatness=1.0, stiffness=1.0, hairiness=0.0, fibre="cotton", packing=PACKING))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn new(
         diameter_mm: Option<f64>,
@@ -53,8 +59,18 @@ impl YarnSpec {
         flatness: f32,
         stiffness: f32,
         hairiness: f32,
+        fibre: &str,
+        packing: f64,
     ) -> PyResult<Self> {
-        let of_tex = |tex| self::diameter_mm(f64::from(tex), density.unwrap_or(COTTON_DENSITY));
+        let Some(fibre) = Fibre::named(fibre) else {
+            let names = Fibre::ALL.map(Fibre::name).join(", ");
+            return Err(PyValueError::new_err(format!("fibre {fibre:?} is none of {names}")));
+        };
+        if !(0.1..=0.91).contains(&packing) {
+            return Err(PyValueError::new_err(format!("packing is {packing}, outside 0.1 to 0.91")));
+        }
+        let spun = tex.zip(diameter_mm).map(|(tex, mm)| density_from_tex(f64::from(tex), mm));
+        let of_tex = |tex| self::diameter_mm(f64::from(tex), density.unwrap_or_else(|| fibre.yarn_density()));
         let Some(diameter_mm) = diameter_mm.or(tex.map(of_tex)) else {
             return Err(PyValueError::new_err("a yarn needs diameter_mm or tex"));
         };
@@ -68,7 +84,9 @@ impl YarnSpec {
         section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
         let material = Material { name: name.into(), srgb, tex, hairiness };
         let twist = twist_from_turns_per_m(twist_per_m) as f32;
-        Ok(Self { material, section, diameter_mm, twist, flatness, stiffness })
+        let density = density.or(spun).unwrap_or_else(|| fibre.yarn_density());
+        let least_area = fibre.least_area(density, packing);
+        Ok(Self { material, section, diameter_mm, twist, flatness, stiffness, least_area })
     }
 
     /// The name of the yarn's material.
@@ -132,7 +150,7 @@ fn section(value: &Bound<'_, PyAny>) -> PyResult<Section> {
 pub(crate) struct Bobbins {
     pub(crate) materials: Vec<Material>,
     pub(crate) sections: Vec<Section>,
-    yarns: Vec<(KnitYarn, [f32; 2])>,
+    yarns: Vec<(KnitYarn, [f32; 3])>,
 }
 
 impl Bobbins {
@@ -163,7 +181,7 @@ impl Bobbins {
                 twist: yarn.twist,
             };
             self.materials.push(yarn.material.clone());
-            self.yarns.push((own, [yarn.flatness, yarn.stiffness]));
+            self.yarns.push((own, [yarn.flatness, yarn.stiffness, yarn.least_area]));
         }
         Ok((first..self.yarns.len()).collect())
     }
@@ -175,7 +193,8 @@ impl Bobbins {
 
     /// A thread of the yarn with number `number`, in a column of the cloth `spacing_mm` wide.
     pub(crate) fn thread(&self, number: usize, spacing_mm: f64) -> Thread {
-        let (KnitYarn { radius_mm, material, section, twist }, [flatness, stiffness]) = self.yarns[number];
-        Thread { spacing_mm, radius_mm, flatness, stiffness, material, section, twist }
+        let (KnitYarn { radius_mm, material, section, twist }, sizes) = self.yarns[number];
+        let [flatness, stiffness, least_area] = sizes;
+        Thread { spacing_mm, radius_mm, flatness, stiffness, least_area, material, section, twist }
     }
 }

@@ -51,6 +51,35 @@ fn our_own_designs_are_clean() {
     }
 }
 
+/// Plain weave at twice Ashenhurst's sett has a spacing at which it would rest, and that spacing
+/// does. So has the same cloth of yarns that could be squeezed more: they would need less of it.
+#[test]
+fn cloth_at_rest_is_jammed_where_its_fibres_have_no_room() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("cloth.toml");
+    let written = |spacing: f64, yarn: &str| {
+        let text = format!(
+            "[weave]\nnotation = \"plain\"\nends = 12\npicks = 12\n[yarns.a]\ntex = 30.0\n{yarn}\n\
+             [warp]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n[weft]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        check(&path, &[])
+    };
+    let needed = ["", "packing = 0.9"].map(|yarn| {
+        let (code, report) = written(0.205, yarn);
+        assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{yarn}");
+        let words = stdout(&texere(&["check", path.to_str().unwrap()]));
+        assert!(words.contains("jammed, not at rest"), "{words}");
+        assert!(words.contains("threads are as dense as their fibres allow, and lack "), "{words}");
+        let wider = cure(&report, "warp.spacing_mm, weft.spacing_mm").unwrap_or_else(|| panic!("{words}"));
+        let (spacing, _) = wider["value"].as_str().unwrap().split_once(", ").unwrap();
+        let spacing: f64 = spacing.parse().unwrap();
+        assert_eq!(written(spacing, yarn).0, 0, "{spacing}");
+        spacing
+    });
+    assert!(needed[1] < needed[0], "{needed:?}");
+}
+
 #[test]
 fn jammed_cloth_is_named_with_its_numbers_and_its_cure_cures() {
     let folder = TempDir::new().unwrap();

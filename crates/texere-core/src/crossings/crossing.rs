@@ -91,7 +91,9 @@ impl CrossingState {
         one.iter().zip(other).fold(0.0, |most, (one, other)| most.max((one - other).abs()))
     }
 
-    pub(crate) const fn thread_mut(&mut self, set: Set) -> &mut ThreadState {
+    /// The thread of a set, to be changed.
+    #[must_use]
+    pub const fn thread_mut(&mut self, set: Set) -> &mut ThreadState {
         match set {
             Set::Warp => &mut self.warp,
             Set::Weft => &mut self.weft,

@@ -31,8 +31,8 @@ pub use problem::{CrossingThread, Crossings};
 pub use rows::{Row, Site};
 pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
-pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP};
+pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP, UPHILL};
 pub use terms::{
     AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
-    STEEPER, TENSION,
+    SOLID, STEEPER, TENSION, TOUCH,
 };

@@ -11,6 +11,10 @@ pub struct CrossingThread {
     pub diameter: f32,
     /// The stiffness against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
+    /// The least area that the thread's section keeps, as a share of its area, from 0 to 1. A
+    /// section is as small as that when its fibres can't be packed more closely. It is 0.75 for a
+    /// cotton yarn.
+    pub least_area: f32,
     /// The level among the threads of its set, 0 for the lowest. Threads of one level lie side by
     /// side, and threads of different levels above or below one another. The picks of a double
     /// cloth alternate between two levels. If warp and weft have the same number of levels, and
@@ -23,7 +27,7 @@ pub struct CrossingThread {
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
 /// // Plain weave, two ends and two picks a repeat; threads of 0.2 mm every 0.4 mm.
-/// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, level: 0 };
+/// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
 /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
 /// assert_eq!(CrossingsPlan::new(&plain)?.crossings(), 4);
 /// # Ok::<(), texere_core::CrossingsError>(())

@@ -20,6 +20,8 @@ pub struct Row {
     pub radius: f32,
     /// The thread's stiffness against bending, 1 for cotton.
     pub stiffness: f32,
+    /// The least area of the thread's section, as a share of its area.
+    pub least_area: f32,
     /// The largest shift to either side.
     pub freedom: f32,
     /// The largest height of the thread above or below the middle of the cloth.
@@ -85,6 +87,7 @@ pub(super) fn rows(
             gap,
             radius: 0.5 * thread.diameter / unit,
             stiffness: thread.stiffness,
+            least_area: thread.least_area,
             freedom: most.min(share * gap.min(before)),
             height,
             level: thread.level as i32,

@@ -2,11 +2,20 @@
 
 use super::{CrossingBlock, CrossingState, CrossingsPlan, Set, Site};
 
-/// The longest step of an unknown, in units.
-pub const STEP: f32 = 0.1;
+/// The longest step of an unknown, in units. 0.1, 0.05, 0.02 and 0.01 were tried. With 0.1, 2/2
+/// twill at 1.06 times Ashenhurst's sett never comes to rest, and swings by 0.05
+/// (`dense_twill_comes_to_rest`).
+pub const STEP: f32 = 0.02;
 
-/// The share of a crossing's last step that is added as momentum.
-pub const MOMENTUM: f32 = 0.8;
+/// The share of a crossing's last step that is added as momentum. 0.8, 0.95 and 0.98 were tried,
+/// and let denim come to rest in more than 400, more than 400, and 236 passes.
+pub const MOMENTUM: f32 = 0.98;
+
+/// The cosine of the angle between a crossing's last step and the energy's gradient, from which on
+/// the step adds no momentum. From a cosine of 0 on, momentum fades. If momentum ended at once,
+/// rounding would decide, and devices would disagree by a hundredth after a few passes
+/// (`mirrored_cloth_rests_mirrored`).
+pub const UPHILL: f32 = 0.1;
 
 /// The least and the largest half width, in radii.
 pub const HALF_WIDTH: [f32; 2] = [0.4, 3.3];
@@ -25,11 +34,29 @@ impl CrossingsPlan {
     }
 
     /// The state that other crossings read of a crossing that has moved from `was` to `is`: `is`,
-    /// moved on by momentum.
+    /// moved on by momentum. `block` has the equations of the step. Momentum that would lead uphill
+    /// in the energy is dropped ([`UPHILL`]). Without that, denim never comes to rest.
+    ///
+    /// **Source**: O'Donoghue and Candès, "Adaptive restart for accelerated gradient schemes",
+    /// Foundations of Computational Mathematics 15, 2015, here for each crossing by itself.
     #[must_use]
-    pub fn ahead(&self, was: &CrossingState, is: &CrossingState, site: Site) -> CrossingState {
+    pub fn ahead(
+        &self,
+        was: &CrossingState,
+        is: &CrossingState,
+        block: &CrossingBlock,
+        site: Site,
+    ) -> CrossingState {
         let [before, after]: [[f32; 8]; 2] = [bytemuck::cast(*was), bytemuck::cast(*is)];
-        let on = std::array::from_fn(|unknown| MOMENTUM * (after[unknown] - before[unknown]));
+        let gone: [f32; 8] = std::array::from_fn(|unknown| after[unknown] - before[unknown]);
+        let dot = |one: &[f32; 8], other: &[f32; 8]| {
+            one.iter().zip(other).fold(0.0, |sum: f32, (one, other)| sum + one * other)
+        };
+        let rise = dot(&gone, &block.gradient);
+        let steepest = (dot(&gone, &gone) * dot(&block.gradient, &block.gradient)).sqrt();
+        let kept = if rise > 0.0 { (1.0 - rise / (UPHILL * steepest)).max(0.0) } else { 1.0 };
+        let momentum = MOMENTUM * kept;
+        let on = gone.map(|gone| momentum * gone);
         self.bounded(is, on, site)
     }
 

@@ -34,6 +34,7 @@ fn cloth(
         pitch: pitch[set] as f32,
         diameter: diameter(tex[set]) as f32,
         stiffness: 1.0,
+        least_area: 0.75,
         level: 0,
     });
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
@@ -45,7 +46,7 @@ fn per_inch(ends: f64, picks: f64) -> [f64; 2] {
     [25.4 / ends, 25.4 / picks]
 }
 
-/// Where the expected crimps come from: mills find 10 to 14 % in the warp of denim. For poplin 14 %
+/// Where the expected crimps come from. For poplin 14 %
 /// in the warp and 2 % in the weft are published. For all other cloths nothing is published, and
 /// the expected crimp is what the cloth reached before.
 pub(crate) fn cloths() -> Vec<Cloth> {
@@ -61,7 +62,7 @@ pub(crate) fn cloths() -> Vec<Cloth> {
             per_inch(72.0, 56.0),
             [4; 2],
             twill,
-            ([13.0, 4.0], [0.66, 0.76], None),
+            ([24.0, 3.0], [0.76, 0.78], None),
         ),
         cloth(
             "poplin",
@@ -71,7 +72,7 @@ pub(crate) fn cloths() -> Vec<Cloth> {
             plain,
             ([14.0, 2.0], [0.9, 0.92], Some(131.0)),
         ),
-        cloth("sheeting", [t20; 2], per_inch(60.0, 60.0), [2; 2], plain, ([6.0; 2], [0.95; 2], Some(148.0))),
+        cloth("sheeting", [t20; 2], per_inch(60.0, 60.0), [2; 2], plain, ([6.0; 2], [0.93; 2], Some(148.0))),
         cloth(
             "drill",
             [t20, t16],
@@ -86,16 +87,16 @@ pub(crate) fn cloths() -> Vec<Cloth> {
             per_inch(173.0, 120.0),
             [5; 2],
             |end, pick| (end + 25 - 2 * (pick % 5)).is_multiple_of(5),
-            ([6.0, 4.0], [0.94; 2], Some(120.0)),
+            ([6.0, 4.0], [0.92; 2], Some(120.0)),
         ),
-        cloth("satin of 8", [t30; 2], square(t30, 1.25), [8; 2], satin, ([4.5; 2], [0.95; 2], None)),
+        cloth("satin of 8", [t30; 2], square(t30, 1.25), [8; 2], satin, ([4.5; 2], [0.89; 2], None)),
         cloth(
             "twill 2/2",
             [t20; 2],
             square(t20, 1.5),
             [4; 2],
             |end, pick| (end + 4 - pick % 4) % 4 < 2,
-            ([12.0; 2], [0.8; 2], None),
+            ([10.5, 5.5], [0.75; 2], None),
         ),
         cloth(
             "plain, jam",
@@ -112,7 +113,7 @@ pub(crate) fn cloths() -> Vec<Cloth> {
             square(t20, 1.75),
             [32; 2],
             |end, pick| if end < 16 || pick < 16 { satin(end, pick) } else { plain(end, pick) },
-            ([4.0; 2], [0.93; 2], None),
+            ([4.0; 2], [0.9; 2], None),
         ),
     ]
 }

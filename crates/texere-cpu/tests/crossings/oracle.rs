@@ -2,8 +2,8 @@
 //! that sum.
 
 use texere_core::crossings::{
-    AREA_GAIN, AREA_LOSS, ASPECT, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, PRESS, SHAPE,
-    SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, STEEPER, Set, Site, TENSION,
+    AREA_GAIN, AREA_LOSS, ASPECT, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, NEAR, PRESS,
+    SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER, Set, Site, TENSION, TOUCH,
 };
 
 use crate::chance;
@@ -82,7 +82,10 @@ impl Sum<'_> {
             let need = (warp[2] * along_weft).hypot(warp[3]) + (weft[2] * along_warp).hypot(weft[3]);
             self.kept_apart(apart - need, 5, kinds)
         } else {
-            self.kept_apart(apart - warp[3] - weft[3], 0, kinds)
+            let room = apart - warp[3] - weft[3];
+            let gap = (room - f64::from(MARGIN)).max(0.0);
+            let pull = if self.plan.is_layered() { f64::from(TOUCH) } else { 0.0 };
+            self.kept_apart(room, 0, kinds) + pull * gap * gap
         };
         for set in Set::BOTH {
             sum += self.of(site, set);
@@ -124,8 +127,11 @@ impl Sum<'_> {
         let here = self.lie(site, set);
         let (wide, thick) = (here[2] / radius, here[3] / radius);
         let gain = wide * thick - f64::from(self.pass.area);
+        let least = f64::from(row.least_area * self.pass.area + MARGIN);
+        let lacking = (wide * thick - least).min(0.0);
         let mut sum = f64::from(SHAPE) * (wide - f64::from(ASPECT) * thick).powi(2)
             + f64::from(if gain < 0.0 { AREA_LOSS } else { AREA_GAIN }) * gain * gain
+            + f64::from(SOLID * self.pass.penalty) * lacking * lacking
             + f64::from(PRESS * plan.press()) * d * d * here[1].powi(2);
         let pitch = |site: Site| self.way(site, set.other(), 1);
         let [before, after] = [-1, 1].map(|along| plan.beside(site, set, along, 0));
@@ -160,6 +166,9 @@ impl Sum<'_> {
             return self.kept_apart(room, kind[0], kinds);
         }
         let side = f64::from(side);
+        if (next[1] - here[1]).abs() < f64::from(NEAR) {
+            return 0.0;
+        }
         let slope = side * (next[1] - here[1]) / (way + two[0] - one[0]);
         let (own, under) = if slope > 0.0 { (next, two) } else { (here, one) };
         let need = (under[2] * slope).hypot(under[3]) + own[3] * 1.0_f64.hypot(slope);

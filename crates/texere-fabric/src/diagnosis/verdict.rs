@@ -20,8 +20,9 @@ pub enum Verdict {
     /// a knit have the lengths that they should have, unless lengths are free, and keep their
     /// linking.
     AtRest,
-    /// Yarns of a knit keep their linking but have no room. Even the passes of the block form, the
-    /// second form of settling by contact, did not bring them to rest.
+    /// Yarns have no room. Those of a knit keep their linking, but even the passes of the block
+    /// form, the second form of settling by contact, did not bring them to rest. Threads of woven
+    /// cloth are as dense as their fibres allow, and still pierce one another or fold.
     Jammed,
     /// A condition of [`Verdict::AtRest`] is not met, and the yarns are not
     /// [jammed](Verdict::Jammed).
@@ -77,7 +78,11 @@ impl WovenRest {
     /// still move a little from pass to pass.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        if is_clear(self.clearance[1], self.bend) { Verdict::AtRest } else { Verdict::NotAtRest }
+        match is_clear(self.clearance[1], self.bend) {
+            true => Verdict::AtRest,
+            false if self.solid => Verdict::Jammed,
+            false => Verdict::NotAtRest,
+        }
     }
 }
 

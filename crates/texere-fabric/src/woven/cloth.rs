@@ -55,9 +55,9 @@ impl Woven {
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
     /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii, half widths
     /// or half heights outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], a flatness outside \[0.1, 10\],
-    /// a stiffness outside \[0.01, 100\], twists beyond [`TWIST_LIMIT`](texere_core::TWIST_LIMIT),
-    /// unknown materials and sections, sections whose numbers are not valid, and cloth wider or
-    /// longer than [`COORDINATE_LIMIT`].
+    /// a stiffness outside \[0.01, 100\], a least area outside \[0, 1\], twists beyond
+    /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections whose
+    /// numbers are not valid, and cloth wider or longer than [`COORDINATE_LIMIT`].
     pub fn new(
         drawdown: Drawdown,
         warp: Vec<Thread>,
@@ -145,6 +145,9 @@ impl Woven {
                     high: STIFFNESS_MAX,
                 }
                 .into());
+            }
+            if !(0.0..=1.0).contains(&each.least_area) {
+                return Err(WovenError::LeastArea { thread, least_area: each.least_area }.into());
             }
             let [half_width, half_height] = each.halves_mm();
             for (side, half_mm) in [("width", half_width), ("height", half_height)] {

@@ -191,6 +191,14 @@ pub enum WovenError {
         /// The largest stiffness allowed.
         high: f32,
     },
+    /// A least area outside \[0, 1\], or not a number.
+    #[error("{thread} has a least area of {least_area} of its section, outside 0 to 1")]
+    LeastArea {
+        /// The thread.
+        thread: Origin,
+        /// The least area of the thread's section, as a share of its area.
+        least_area: f32,
+    },
     /// A flatness outside its limits, or not a number.
     #[error("{thread} has a flatness of {flatness}, outside {low} to {high}")]
     Flatness {

@@ -2,6 +2,8 @@
 
 use texere_core::Halves;
 
+use crate::COTTON_LEAST_AREA;
+
 /// The least spacing of a thread, mm: a nanometre.
 pub const SPACING_MIN: f64 = 1e-6;
 
@@ -41,6 +43,10 @@ pub struct Thread {
     /// Stiffness against bending when the cloth comes to rest, from 0.01 to 100; 1 for a cotton
     /// yarn of the same diameter.
     pub stiffness: f32,
+    /// The least area that the yarn's section keeps when the cloth comes to rest, as a share of the
+    /// area of the round yarn, from 0 to 1: fibres can't be packed more closely
+    /// ([`Fibre::least_area`](crate::Fibre::least_area)).
+    pub least_area: f32,
     /// Index into the materials.
     pub material: u32,
     /// Index into the sections.
@@ -51,10 +57,19 @@ pub struct Thread {
 }
 
 impl Thread {
-    /// A round, untwisted thread of the first material and the first section.
+    /// A round, untwisted thread of cotton, of the first material and the first section.
     #[must_use]
     pub const fn new(spacing_mm: f64, radius_mm: f32) -> Self {
-        Self { spacing_mm, radius_mm, flatness: 1.0, stiffness: 1.0, material: 0, section: 0, twist: 0.0 }
+        Self {
+            spacing_mm,
+            radius_mm,
+            flatness: 1.0,
+            stiffness: 1.0,
+            least_area: COTTON_LEAST_AREA,
+            material: 0,
+            section: 0,
+            twist: 0.0,
+        }
     }
 
     /// Half the thread's width and half its height in the cloth, mm, for a circular section.

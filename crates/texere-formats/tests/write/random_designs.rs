@@ -5,8 +5,8 @@ use texere_core::crossings::Set;
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::{
-    BySet, Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure, Thread, Woven,
-    WovenDesign,
+    BySet, COTTON_LEAST_AREA, Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure,
+    Thread, Woven, WovenDesign,
 };
 use texere_formats::Design;
 
@@ -63,10 +63,12 @@ fn run() -> impl Strategy<Value = (Thread, usize)> {
     let spacing = prop_oneof![0.002_f64..900.0, Just(0.5), Just(10.0 / 12.0), Just(25.4 / 72.0)];
     let one = || prop_oneof![Just(1.0_f32), numbers(0.11, 9.9)];
     let twist = prop_oneof![Just(0.0_f32), -600.0_f32..600.0, Just(500.0 * std::f32::consts::TAU / 1000.0)];
+    let least_area = prop_oneof![Just(COTTON_LEAST_AREA), Just(0.0), Just(1.0), 0.0_f32..1.0];
     let kinds = (0_u32..4, 0_u32..3, 1_usize..5);
-    (spacing, numbers(0.0006, 400.0), one(), one(), twist, kinds).prop_map(
-        |(spacing_mm, radius_mm, flatness, stiffness, twist, (material, section, times))| {
-            (Thread { spacing_mm, radius_mm, flatness, stiffness, material, section, twist }, times)
+    (spacing, numbers(0.0006, 400.0), one(), one(), (least_area, twist), kinds).prop_map(
+        |(spacing_mm, radius_mm, flatness, stiffness, (least_area, twist), (material, section, times))| {
+            let sizes = Thread { flatness, stiffness, least_area, ..Thread::new(spacing_mm, radius_mm) };
+            (Thread { material, section, twist, ..sizes }, times)
         },
     )
 }

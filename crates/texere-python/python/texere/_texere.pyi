@@ -49,6 +49,8 @@ class Yarn:
         flatness: float = 1.0,
         stiffness: float = 1.0,
         hairiness: float = 0.0,
+        fibre: str = "cotton",
+        packing: float = ...,
     ) -> Yarn: ...
     @property
     def name(self) -> str: ...

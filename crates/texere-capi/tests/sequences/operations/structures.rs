@@ -61,7 +61,7 @@ fn thread(caller: &mut Caller<'_>) -> texere_thread {
         twist: 0.0,
         material: caller.random.pick(&[0, 0, 0, 0, 0, 0, 0, 0, 0, 1]),
         section: 0,
-        reserved: 0,
+        least_area: caller.random.pick(&[0.0, 0.6, 1.0]),
     }
 }
 

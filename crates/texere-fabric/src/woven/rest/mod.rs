@@ -56,6 +56,9 @@ pub struct WovenRest {
     /// The share of their cross-section's area that threads of each set lost when threads were made
     /// thinner, as the mean over all crossings.
     pub area_lost: BySet<f64>,
+    /// Whether a thread is as dense at some crossing as its fibres allow
+    /// ([`Thread::least_area`](crate::Thread::least_area)).
+    pub solid: bool,
 }
 
 impl Woven {
@@ -129,6 +132,7 @@ impl Woven {
             rounds,
             area: area.map(|[mean, _]| mean),
             area_least: area.map(|[_, least]| least),
+            solid: resting.is_solid(),
             area_lost: BySet { warp: at_first.warp[0] - area.warp[0], weft: at_first.weft[0] - area.weft[0] },
         })
     }

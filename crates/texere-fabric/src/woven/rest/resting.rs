@@ -18,6 +18,9 @@ use crate::woven::selvedge;
 use crate::woven::yarns::{Pass, Pen};
 use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
 
+/// The area of a section up to which the section counts as solid, as a multiple of its least area.
+const SOLID: f32 = 1.02;
+
 /// A repeat's crossings at rest, mm.
 pub(super) struct RestingRepeat {
     repeat: [usize; 2],
@@ -26,6 +29,8 @@ pub(super) struct RestingRepeat {
     /// then of the pick. The room is an ellipse that holds the thread's section.
     pub(super) drawn: Vec<[[f32; 2]; 2]>,
     rooms: [Vec<[f32; 2]>; 2],
+    /// The least product of half width and half height of each thread's room, mm².
+    least: [Vec<f32>; 2],
     /// The layer of each thread of the repeat, 0 for the lowest. All are 0 if warp and weft have
     /// different numbers of levels.
     layers: [Vec<u32>; 2],
@@ -43,6 +48,21 @@ impl RestingRepeat {
     ) -> Self {
         let mm: &mut [f32] = bytemuck::cast_slice_mut(&mut rest);
         mm.iter_mut().for_each(|value| *value *= plan.unit());
+        let least = Set::BOTH.map(|set| {
+            let rows = plan.rows(set).iter().zip(&problem.least[set as usize]);
+            rows.map(|(row, least)| least * (row.radius * plan.unit()).powi(2)).collect::<Vec<f32>>()
+        });
+        // Penalties give way a little. Sections that lack area get it back.
+        for (number, at) in rest.iter_mut().enumerate() {
+            let site = plan.site(number);
+            for set in Set::BOTH {
+                let lie = at.thread_mut(set);
+                let area = lie.half_width * lie.half_height;
+                let times = (least[set as usize][site.thread(set)] / area).max(1.0).sqrt();
+                lie.half_width *= times;
+                lie.half_height *= times;
+            }
+        }
         let drawn = rest
             .iter()
             .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
@@ -52,7 +72,8 @@ impl RestingRepeat {
         } else {
             problem.repeat.map(|threads| vec![0; threads])
         };
-        Self { repeat: problem.repeat, drawn: drawn.collect(), rooms: problem.rooms, layers, rest, tension }
+        let (repeat, rooms, drawn) = (problem.repeat, problem.rooms, drawn.collect());
+        Self { repeat, drawn, rooms, least, layers, rest, tension }
     }
 
     /// Ends and picks of the repeat.
@@ -74,6 +95,21 @@ impl RestingRepeat {
             let [sum, least] = keeps.fold([0.0, f64::INFINITY], add);
             [sum / self.drawn.len() as f64, least]
         })
+    }
+
+    /// The least product of half width and half height that a thread of `set` keeps at a crossing
+    /// of the repeat, mm².
+    pub(super) fn least(&self, number: usize, set: Set) -> f32 {
+        self.least[set as usize][[number % self.repeat[0], number / self.repeat[0]][set as usize]]
+    }
+
+    /// Whether a thread of the repeat is as dense at some crossing as its fibres allow.
+    pub(super) fn is_solid(&self) -> bool {
+        let is_solid = |(number, drawn): (usize, &[[f32; 2]; 2])| {
+            let area = |set: Set| drawn[set as usize][0] * drawn[set as usize][1];
+            Set::BOTH.into_iter().any(|set| area(set) < SOLID * self.least(number, set))
+        };
+        self.drawn.iter().enumerate().any(is_solid)
     }
 
     /// Number, within the repeat, of a crossing of the cloth.

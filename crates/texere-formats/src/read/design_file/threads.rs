@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use texere_core::backend::room;
 use texere_core::{Material, Section, SectionPoint};
-use texere_fabric::{COTTON_DENSITY, Thread};
+use texere_fabric::{Fibre, PACKING, Thread, density_from_tex};
 use toml::Spanned;
 
 use super::any::Any;
@@ -19,6 +19,13 @@ const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 
 /// The least and the greatest density of a yarn, the air in it included, g/cm³.
 const DENSITY: [f64; 2] = [0.05, 20.0];
+
+/// The least and the greatest share of a squeezed yarn's section that fibre fills. Fibres in
+/// hexagons fill 0.907.
+const SQUEEZED: [f64; 2] = [0.1, 0.91];
+
+/// The least and the greatest least area of a yarn's section.
+const LEAST_AREA: [f64; 2] = [0.0, 1.0];
 
 /// The least and the greatest stiffness of a yarn, as a multiple of that of a cotton yarn of its
 /// diameter.
@@ -178,7 +185,8 @@ fn yarn(
 ) -> Result<(Material, Thread), ReadError> {
     let field = |key: &str| format!("yarns.{name}.{key}");
     let number_of = |key: &str, value, range| source.optional(&field(key), value, range);
-    let (diameter_mm, tex) = thickness(source, name, spec)?;
+    let fibre = fibre(source, name, spec)?;
+    let (diameter_mm, tex) = thickness(source, name, spec, fibre)?;
     let flatness = number_of("flatness", &spec.flatness, FLATNESS)?.unwrap_or(1.0);
     let stiffness = number_of("stiffness", &spec.stiffness, STIFFNESS)?.unwrap_or(1.0);
     let twist_per_m = number_of("twist_per_m", &spec.twist_per_m, [-TWIST_PER_M, TWIST_PER_M])?;
@@ -187,6 +195,16 @@ fn yarn(
     let srgb = match &spec.color {
         Some(color) => source.rgb(&field("color"), color)?,
         None => Material::default().srgb,
+    };
+    let least_area = match number_of("least_area", &spec.least_area, LEAST_AREA)? {
+        Some(least_area) => least_area as f32,
+        None => {
+            let given = number_of("density", &spec.density, DENSITY)?;
+            let spun = spec.diameter_mm.as_ref().and(tex).map(|tex| density_from_tex(tex, diameter_mm));
+            let density = given.or(spun).unwrap_or_else(|| fibre.yarn_density());
+            let packing = number_of("packing", &spec.packing, SQUEEZED)?.unwrap_or(PACKING);
+            fibre.least_area(density, packing)
+        }
     };
     let material = Material {
         name: name.into(),
@@ -199,6 +217,7 @@ fn yarn(
         radius_mm: (diameter_mm / 2.0) as f32,
         flatness: flatness as f32,
         stiffness: stiffness as f32,
+        least_area,
         material: number,
         section: number,
         twist,
@@ -206,9 +225,24 @@ fn yarn(
     Ok((material, thread))
 }
 
+/// The fibre of a yarn, cotton if the design does not say.
+fn fibre(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Fibre, ReadError> {
+    let Some(fibre) = &spec.fibre else { return Ok(Fibre::default()) };
+    Fibre::named(fibre.as_ref()).ok_or_else(|| {
+        let names = Fibre::ALL.map(|fibre| format!("\"{}\"", fibre.name()));
+        let expected = format!("one of {}", names.join(", "));
+        source.bad(&format!("yarns.{name}.fibre"), fibre, &expected)
+    })
+}
+
 /// The diameter of a yarn, mm, as given or worked out from its tex or cotton count. Also its tex,
 /// if tex or cotton count is given.
-fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, Option<f64>), ReadError> {
+fn thickness(
+    source: &Source<'_>,
+    name: &str,
+    spec: &YarnSpec,
+    fibre: Fibre,
+) -> Result<(f64, Option<f64>), ReadError> {
     let field = |key: &str| format!("yarns.{name}.{key}");
     let number_of = |key: &str, value, range| source.optional(&field(key), value, range);
     if let (Some(_), Some(count)) = (&spec.tex, &spec.cotton_count) {
@@ -216,7 +250,7 @@ fn thickness(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<(f64, O
     }
     let count = number_of("cotton_count", &spec.cotton_count, COTTON_COUNT)?;
     let tex = number_of("tex", &spec.tex, TEX)?.or(count.map(texere_fabric::tex_from_cotton_count));
-    let density = number_of("density", &spec.density, DENSITY)?.unwrap_or(COTTON_DENSITY);
+    let density = number_of("density", &spec.density, DENSITY)?.unwrap_or_else(|| fibre.yarn_density());
     match (number_of("diameter_mm", &spec.diameter_mm, LENGTH_MM)?, tex) {
         (Some(diameter_mm), _) => Ok((diameter_mm, tex)),
         (None, Some(count)) => Ok((texere_fabric::diameter_mm(count, density), tex)),

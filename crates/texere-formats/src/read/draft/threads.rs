@@ -4,7 +4,7 @@ use std::path::Path;
 
 use texere_core::backend::room;
 use texere_core::{Material, Section, counted};
-use texere_fabric::{Drawdown, FabricError, Thread, Woven};
+use texere_fabric::{COTTON_LEAST_AREA, Drawdown, FabricError, Thread, Woven};
 
 use crate::read::ReadError;
 use crate::read::threads::only_used;
@@ -187,6 +187,7 @@ impl ThreadSet {
             radius_mm: (thickness.map_or(diameter, |thickness| scale * thickness) / 2.0) as f32,
             flatness: 1.0,
             stiffness: 1.0,
+            least_area: COTTON_LEAST_AREA,
             material: material.unwrap_or(NO_COLOR),
             section: 0,
             twist: 0.0,

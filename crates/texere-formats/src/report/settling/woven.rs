@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
+use texere_contact::CLEAR;
 use texere_core::crossings::Set;
 use texere_fabric::{BySet, Verdict, WovenRest};
 
@@ -81,6 +82,14 @@ impl fmt::Display for WovenRestReport {
         }
         let kept =
             |area: &AreaReport| format!("{:.1} % (least {:.1} %)", area.mean * 100.0, area.least * 100.0);
-        write!(f, "; area left of ends {}, of picks {}", kept(&area.warp), kept(&area.weft))
+        write!(f, "; area left of ends {}, of picks {}", kept(&area.warp), kept(&area.weft))?;
+        if *verdict == Verdict::Jammed {
+            write!(f, "; threads are as dense as their fibres allow")?;
+            let lacking = 100.0 * (1.0 - clearance / CLEAR);
+            if lacking > 0.0 {
+                write!(f, ", and lack {lacking:.1} % of the distance that they need")?;
+            }
+        }
+        Ok(())
     }
 }

@@ -3,7 +3,7 @@
 
 use texere_core::Section;
 use texere_core::crossings::Set;
-use texere_fabric::{Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
+use texere_fabric::{COTTON_LEAST_AREA, Crimp, Finish, Relief, Shape, Thread, Woven, WovenDesign};
 
 use super::text::named;
 use crate::Design;
@@ -57,6 +57,7 @@ pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
         (any(&tex), "yarns.tex"),
         (any(&|thread| thread.flatness != 1.0), "yarns.flatness"),
         (any(&|thread| thread.stiffness != 1.0), "yarns.stiffness"),
+        (any(&|thread| thread.least_area != COTTON_LEAST_AREA), "yarns.least_area"),
         (any(&section), "yarns.section"),
         (any(&|thread| thread.twist != 0.0), "yarns.twist_per_m"),
         (any(&hairiness), "yarns.hairiness"),

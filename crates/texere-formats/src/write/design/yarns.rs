@@ -4,7 +4,10 @@ use std::collections::{HashMap, HashSet};
 
 use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::weft::KnitYarn;
-use texere_fabric::{COTTON_DENSITY, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m};
+use texere_fabric::{
+    COTTON_DENSITY, Fibre, PACKING, Thread, Woven, density_from_tex, diameter_mm, turns_per_m,
+    twist_from_turns_per_m,
+};
 
 use super::super::WriteError;
 use super::format::DESIGN_FILE as FORMAT;
@@ -35,9 +38,17 @@ impl Yarns {
             warp.get(number).or_else(|| weft.get(number - warp.len())).copied().unwrap_or(warp[0])
         };
         let key = |number: usize| {
-            let Thread { spacing_mm: _, radius_mm, flatness, stiffness, material, section, twist } =
-                thread(number);
-            ([radius_mm, flatness, stiffness, twist].map(f32::to_bits), material, section)
+            let Thread {
+                spacing_mm: _,
+                radius_mm,
+                flatness,
+                stiffness,
+                least_area,
+                material,
+                section,
+                twist,
+            } = thread(number);
+            ([radius_mm, flatness, stiffness, least_area, twist].map(f32::to_bits), material, section)
         };
         let kinds = Kinds::new(warp.len() + weft.len(), key);
         Self::new(kinds, warp.len(), thread, cloth.materials(), cloth.sections(), |_| true)
@@ -187,10 +198,12 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
     };
     keys.extend(tex.map(|tex| format!("tex = {tex:?}")));
     let reads = |diameter: f64| (diameter / 2.0) as f32 == thread.radius_mm;
+    let mut density = COTTON_DENSITY;
     if !tex.is_some_and(|tex| reads(diameter_mm(tex, COTTON_DENSITY))) {
         let diameter = nearest(2.0 * f64::from(thread.radius_mm), reads).0;
         within(FORMAT, || field("diameter_mm"), diameter, limits::LENGTH_MM)?;
         keys.push(format!("diameter_mm = {diameter:?}"));
+        density = tex.map_or(density, |tex| density_from_tex(tex, diameter));
     }
     let [red, green, blue] = material.srgb;
     keys.push(format!("color = \"#{red:02x}{green:02x}{blue:02x}\""));
@@ -199,6 +212,13 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
         if value != 1.0 {
             keys.push(format!("{key} = {:?}", nearest(value.into(), |read| read as f32 == value).0));
         }
+    }
+    let least_area = thread.least_area;
+    if least_area != Fibre::Cotton.least_area(density, PACKING) {
+        keys.push(format!(
+            "least_area = {:?}",
+            nearest(least_area.into(), |read| read as f32 == least_area).0
+        ));
     }
     if thread.twist != 0.0 {
         let reads = |per_m| twist_from_turns_per_m(per_m) == thread.twist;

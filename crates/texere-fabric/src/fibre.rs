@@ -1,0 +1,109 @@
+//! Fibres: how dense they are, and how small a yarn of them can become.
+
+use crate::COTTON_DENSITY;
+
+/// The largest share of a yarn's section that its fibres fill when the yarn is squeezed, unless a
+/// yarn says otherwise. Equal round fibres in hexagons, the closest way, fill 0.907. In a yarn they
+/// lie less orderly.
+pub const PACKING: f64 = 0.8;
+
+/// A fibre that yarns are made of.
+///
+/// ```
+/// use texere_fabric::Fibre;
+/// assert_eq!(Fibre::named("wool"), Some(Fibre::Wool));
+/// assert_eq!(Fibre::Wool.density(), 1.31);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Fibre {
+    /// Cotton.
+    #[default]
+    Cotton,
+    /// Linen, which is flax.
+    Linen,
+    /// Nylon.
+    Nylon,
+    /// Polyester.
+    Polyester,
+    /// Silk.
+    Silk,
+    /// Viscose.
+    Viscose,
+    /// Wool.
+    Wool,
+}
+
+impl Fibre {
+    /// All fibres, in the order of their names.
+    pub const ALL: [Self; 7] =
+        [Self::Cotton, Self::Linen, Self::Nylon, Self::Polyester, Self::Silk, Self::Viscose, Self::Wool];
+
+    /// The fibre's name in design files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cotton => "cotton",
+            Self::Linen => "linen",
+            Self::Nylon => "nylon",
+            Self::Polyester => "polyester",
+            Self::Silk => "silk",
+            Self::Viscose => "viscose",
+            Self::Wool => "wool",
+        }
+    }
+
+    /// The fibre of this [name](Self::name).
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|fibre| fibre.name() == name)
+    }
+
+    /// Density of the solid fibre, g/cm³.
+    ///
+    /// **Source**: Morton and Hearle, "Physical properties of textile fibres", 4th edition, 2008,
+    /// chapter 5.
+    #[must_use]
+    pub const fn density(self) -> f64 {
+        match self {
+            Self::Cotton | Self::Viscose => 1.52,
+            Self::Linen => 1.5,
+            Self::Nylon => 1.14,
+            Self::Polyester => 1.38,
+            Self::Silk => 1.34,
+            Self::Wool => 1.31,
+        }
+    }
+
+    /// Density of a yarn of this fibre with the air in it, g/cm³, if it is as full of fibre as
+    /// Peirce's cotton yarn ([`COTTON_DENSITY`]).
+    ///
+    /// ```
+    /// use texere_fabric::{COTTON_DENSITY, Fibre};
+    /// assert_eq!(Fibre::Cotton.yarn_density(), COTTON_DENSITY);
+    /// assert!((Fibre::Wool.yarn_density() - 0.783).abs() < 1e-3);
+    /// ```
+    #[must_use]
+    pub fn yarn_density(self) -> f64 {
+        COTTON_DENSITY * (self.density() / Self::Cotton.density())
+    }
+
+    /// The least area that the section of a yarn keeps, as a share of the section of the yarn as it
+    /// is spun. `yarn_density` (g/cm³) is the density of the yarn as it is spun, the air in it
+    /// included. `packing` is the largest share of the section that fibre fills. The least area is
+    /// 1 if the yarn is as dense already.
+    ///
+    /// ```
+    /// use texere_fabric::{COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING};
+    /// let cotton = Fibre::Cotton.least_area(COTTON_DENSITY, PACKING);
+    /// assert!((cotton - 0.7476).abs() < 1e-4);
+    /// assert_eq!(cotton, COTTON_LEAST_AREA);
+    /// ```
+    #[must_use]
+    pub fn least_area(self, yarn_density: f64, packing: f64) -> f32 {
+        (yarn_density / (packing * self.density())).min(1.0) as f32
+    }
+}
+
+/// The least area of a cotton yarn's section, as a share of the section of the yarn as it is spun:
+/// [`Fibre::least_area`] of Peirce's cotton yarn.
+pub const COTTON_LEAST_AREA: f32 = (COTTON_DENSITY / (PACKING * Fibre::Cotton.density())) as f32;

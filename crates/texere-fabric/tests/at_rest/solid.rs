@@ -19,7 +19,7 @@ fn least_drawn(woven: &Woven, yarns: &Yarns) -> f32 {
         let radius = match yarns.layout().yarns()[number].origin {
             Origin::End(end) => woven.warp()[end as usize - 1].radius_mm,
             Origin::Pick(pick) => woven.weft()[pick as usize - 1].radius_mm,
-            other => panic!("{other}"),
+            _ => f32::NAN,
         };
         let areas = yarns.yarn_points(number).unwrap().iter().map(|at| at.half_width() * at.half_height());
         areas.fold(f32::INFINITY, f32::min) / (radius * radius)

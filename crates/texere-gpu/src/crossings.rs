@@ -115,7 +115,8 @@ impl CrossingsParams {
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);
-    /// assert_eq!((params.crossings, params.flags, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
+    /// let flags = CrossingsParams::ENDS | CrossingsParams::LAYERED;
+    /// assert_eq!((params.crossings, params.flags, params.penalty), (4, flags, 1000.0));
     /// assert_eq!((ThreadRow::all(&plan).len(), crossings_ups(&plan)), (4, vec![0b1001]));
     /// # Ok::<(), texere_core::CrossingsError>(())
     /// ```

@@ -187,7 +187,10 @@ fn tables_of_settling_lie_as_in_rust() {
 #[test]
 fn tables_of_crossings_lie_as_in_rust() {
     let (module, _) = parse(&crossings::MOVE);
-    same_layout!(&module, ThreadRow { gap, radius, stiffness, freedom, height, level, before, after });
+    same_layout!(
+        &module,
+        ThreadRow { gap, radius, stiffness, least_area, freedom, height, level, before, after }
+    );
     same_layout!(
         &module,
         CrossingsParams {

@@ -71,6 +71,9 @@ CALLS = {
     "a twist of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, twist_per_m=NAN)),
     "a hairiness of 1000": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, hairiness=1000)).placed(),
     "a stiffness of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, stiffness=NAN)),
+    "an unknown fibre": lambda: texere.Yarn(diameter_mm=0.2, fibre="hemp"),
+    "fibre packed beyond hexagons": lambda: texere.Yarn(diameter_mm=0.2, packing=0.95),
+    "a packing of NaN": lambda: texere.Yarn(diameter_mm=0.2, packing=NAN),
     # Knits.
     "an empty chart": lambda: knit(""),
     "a chart of unknown stitches": lambda: knit("xyz"),

@@ -120,21 +120,16 @@ float largest(float4 one) {
 }
 
 // Moves one thread of a crossing, and returns by how much.
-float4 move_thread(const Cloth *cloth, __global float4 *crossings, uint number, uint2 site, uint of_set, float4 step) {
-    ThreadRow thread = thread_of(cloth, site, of_set);
-    size_t lie = 2u * (size_t)number + of_set;
+float4 move_thread(const Cloth *cloth, __global float4 *crossings, size_t lie, const ThreadRow *thread, float4 step) {
     float4 was = crossings[lie];
-    float4 moved = bounded(cloth->found[lie] + step, &thread);
+    float4 moved = bounded(cloth->found[lie] + step, thread);
     crossings[lie] = moved;
     return moved - was;
 }
 
 // Writes the lie that the next pass reads: the lie after this pass, moved by `on` (momentum).
-void move_on(const Cloth *cloth, const __global float4 *crossings, __global float4 *next, uint number, uint2 site,
-             uint of_set, float4 on) {
-    ThreadRow thread = thread_of(cloth, site, of_set);
-    size_t lie = 2u * (size_t)number + of_set;
-    next[lie] = bounded(crossings[lie] + on, &thread);
+void move_on(const __global float4 *crossings, __global float4 *next, size_t lie, const ThreadRow *thread, float4 on) {
+    next[lie] = bounded(crossings[lie] + on, thread);
 }
 
 // Moves a crossing. Returns the longest step and the least clearance.
@@ -144,8 +139,11 @@ float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global fl
     Pair step = step_of(&block);
     float longest = fmax(largest(step.warp), largest(step.weft));
     float share = longest > CROSSINGS_STEP ? CROSSINGS_STEP / longest : 1.0f;
-    float4 warp = move_thread(cloth, crossings, number, site, WARP, share * step.warp);
-    float4 weft = move_thread(cloth, crossings, number, site, WEFT, share * step.weft);
+    ThreadRow end = thread_of(cloth, site, WARP);
+    ThreadRow pick = thread_of(cloth, site, WEFT);
+    size_t first = 2u * (size_t)number;
+    float4 warp = move_thread(cloth, crossings, first + WARP, &end, share * step.warp);
+    float4 weft = move_thread(cloth, crossings, first + WEFT, &pick, share * step.weft);
     // Momentum that would lead uphill in the energy is dropped.
     float rise = dot4(block.own, warp) + dot4(block.crossed, weft);
     float slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
@@ -154,8 +152,8 @@ float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global fl
     if (rise > 0.0f) {
         momentum *= fmax(1.0f - rise / (CROSSINGS_UPHILL * steepest), 0.0f);
     }
-    move_on(cloth, crossings, next, number, site, WARP, momentum * warp);
-    move_on(cloth, crossings, next, number, site, WEFT, momentum * weft);
+    move_on(crossings, next, first + WARP, &end, momentum * warp);
+    move_on(crossings, next, first + WEFT, &pick, momentum * weft);
     return (float2)(fmax(largest(warp), largest(weft)), block.clearance);
 }
 

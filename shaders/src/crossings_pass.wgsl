@@ -121,18 +121,16 @@ fn largest(one: vec4<f32>) -> f32 {
 }
 
 // Moves one thread of a crossing, and returns by how much.
-fn move_thread(number: u32, site: vec2<u32>, of_set: u32, step: vec4<f32>) -> vec4<f32> {
-    let lie = 2u * number + of_set;
+fn move_thread(lie: u32, thread: ThreadRow, step: vec4<f32>) -> vec4<f32> {
     let was = crossings[lie];
-    let moved = bounded(found[lie] + step, thread_of(site, of_set));
+    let moved = bounded(found[lie] + step, thread);
     crossings[lie] = moved;
     return moved - was;
 }
 
 // Writes the lie that the next pass reads: the lie after this pass, moved by `on` (momentum).
-fn move_on(number: u32, site: vec2<u32>, of_set: u32, on: vec4<f32>) {
-    let lie = 2u * number + of_set;
-    next[lie] = bounded(crossings[lie] + on, thread_of(site, of_set));
+fn move_on(lie: u32, thread: ThreadRow, on: vec4<f32>) {
+    next[lie] = bounded(crossings[lie] + on, thread);
 }
 
 // Moves a crossing. Returns the longest step and the least clearance.
@@ -145,8 +143,11 @@ fn move_crossing(number: u32) -> vec2<f32> {
     if longest > CROSSINGS_STEP {
         share = CROSSINGS_STEP / longest;
     }
-    let warp = move_thread(number, site, WARP, share * step.warp);
-    let weft = move_thread(number, site, WEFT, share * step.weft);
+    let end = thread_of(site, WARP);
+    let pick = thread_of(site, WEFT);
+    let first = 2u * number;
+    let warp = move_thread(first + WARP, end, share * step.warp);
+    let weft = move_thread(first + WEFT, pick, share * step.weft);
     // Momentum that would lead uphill in the energy is dropped.
     let rise = dot4(block.own, warp) + dot4(block.crossed, weft);
     let slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
@@ -155,8 +156,8 @@ fn move_crossing(number: u32) -> vec2<f32> {
     if rise > 0.0 {
         momentum *= max(1.0 - rise / (CROSSINGS_UPHILL * steepest), 0.0);
     }
-    move_on(number, site, WARP, momentum * warp);
-    move_on(number, site, WEFT, momentum * weft);
+    move_on(first + WARP, end, momentum * warp);
+    move_on(first + WEFT, pick, momentum * weft);
     return vec2(max(largest(warp), largest(weft)), block.clearance);
 }
 

@@ -1,11 +1,14 @@
 //! Fibres: how dense they are, and how small a yarn of them can become.
 
-use crate::COTTON_DENSITY;
+use crate::{COTTON_DENSITY, density_from_tex};
 
 /// The largest share of a yarn's section that its fibres fill when the yarn is squeezed, unless a
 /// yarn says otherwise. Equal round fibres in hexagons, the closest way, fill 0.907. In a yarn they
 /// lie less orderly.
 pub const PACKING: f64 = 0.8;
+
+/// The least and the greatest packing of a squeezed yarn that a design may give.
+pub const PACKING_LIMITS: [f64; 2] = [0.1, 0.91];
 
 /// A fibre that yarns are made of.
 ///
@@ -85,6 +88,21 @@ impl Fibre {
     #[must_use]
     pub fn yarn_density(self) -> f64 {
         COTTON_DENSITY * (self.density() / Self::Cotton.density())
+    }
+
+    /// Density of a yarn of this fibre as it is spun, the air in it included, g/cm³: the density
+    /// that is `given`, else that of `tex` (g/km) and `diameter_mm` if both are known, else
+    /// [`Fibre::yarn_density`].
+    ///
+    /// ```
+    /// use texere_fabric::Fibre;
+    /// assert_eq!(Fibre::Wool.spun_density(Some(0.7), Some(30.0), None), 0.7);
+    /// assert_eq!(Fibre::Wool.spun_density(None, Some(30.0), None), Fibre::Wool.yarn_density());
+    /// ```
+    #[must_use]
+    pub fn spun_density(self, given: Option<f64>, tex: Option<f64>, diameter_mm: Option<f64>) -> f64 {
+        let spun = || tex.zip(diameter_mm).map(|(tex, diameter_mm)| density_from_tex(tex, diameter_mm));
+        given.or_else(spun).unwrap_or_else(|| self.yarn_density())
     }
 
     /// The least area that the section of a yarn keeps, as a share of the section of the yarn as it

@@ -58,7 +58,7 @@ pub use diagnosis::{
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
 };
 pub use error::FabricError;
-pub use fibre::{COTTON_LEAST_AREA, Fibre, PACKING};
+pub use fibre::{COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS};
 pub use look_alike::hyphen_look_alike;
 pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};

@@ -4,9 +4,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use texere::weft::KnitYarn;
 use texere::woven::Thread;
-use texere::yarn::{
-    Fibre, Material, PACKING, Section, density_from_tex, diameter_mm, twist_from_turns_per_m,
-};
+use texere::yarn::{Fibre, Material, PACKING, PACKING_LIMITS, Section, diameter_mm, twist_from_turns_per_m};
 
 /// A yarn as it lies on the bobbin: what a design in code is made of.
 ///
@@ -66,11 +64,12 @@ impl YarnSpec {
             let names = Fibre::ALL.map(Fibre::name).join(", ");
             return Err(PyValueError::new_err(format!("fibre {fibre:?} is none of {names}")));
         };
-        if !(0.1..=0.91).contains(&packing) {
-            return Err(PyValueError::new_err(format!("packing is {packing}, outside 0.1 to 0.91")));
+        let [low, high] = PACKING_LIMITS;
+        if !(low..=high).contains(&packing) {
+            return Err(PyValueError::new_err(format!("packing is {packing}, outside {low} to {high}")));
         }
-        let spun = tex.zip(diameter_mm).map(|(tex, mm)| density_from_tex(f64::from(tex), mm));
-        let of_tex = |tex| self::diameter_mm(f64::from(tex), density.unwrap_or_else(|| fibre.yarn_density()));
+        let density = fibre.spun_density(density, tex.map(f64::from), diameter_mm);
+        let of_tex = |tex| self::diameter_mm(f64::from(tex), density);
         let Some(diameter_mm) = diameter_mm.or(tex.map(of_tex)) else {
             return Err(PyValueError::new_err("a yarn needs diameter_mm or tex"));
         };
@@ -84,7 +83,6 @@ impl YarnSpec {
         section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
         let material = Material { name: name.into(), srgb, tex, hairiness };
         let twist = twist_from_turns_per_m(twist_per_m) as f32;
-        let density = density.or(spun).unwrap_or_else(|| fibre.yarn_density());
         let least_area = fibre.least_area(density, packing);
         Ok(Self { material, section, diameter_mm, twist, flatness, stiffness, least_area })
     }

@@ -30,6 +30,7 @@ pub use texere_core::{
     YarnPlace, YarnsBuilder,
 };
 pub use texere_fabric::{
-    COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING, density_from_tex, diameter_mm, tex_from_cotton_count,
-    tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
+    COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS, density_from_tex, diameter_mm,
+    tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m,
+    twist_from_turns_per_m,
 };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use texere_core::backend::room;
 use texere_core::{Material, Section, SectionPoint};
-use texere_fabric::{Fibre, PACKING, Thread, density_from_tex};
+use texere_fabric::{Fibre, PACKING, PACKING_LIMITS, Thread};
 use toml::Spanned;
 
 use super::any::Any;
@@ -19,10 +19,6 @@ const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 
 /// The least and the greatest density of a yarn, the air in it included, g/cm³.
 const DENSITY: [f64; 2] = [0.05, 20.0];
-
-/// The least and the greatest share of a squeezed yarn's section that fibre fills. Fibres in
-/// hexagons fill 0.907.
-const SQUEEZED: [f64; 2] = [0.1, 0.91];
 
 /// The least and the greatest least area of a yarn's section.
 const LEAST_AREA: [f64; 2] = [0.0, 1.0];
@@ -200,9 +196,9 @@ fn yarn(
         Some(least_area) => least_area as f32,
         None => {
             let given = number_of("density", &spec.density, DENSITY)?;
-            let spun = spec.diameter_mm.as_ref().and(tex).map(|tex| density_from_tex(tex, diameter_mm));
-            let density = given.or(spun).unwrap_or_else(|| fibre.yarn_density());
-            let packing = number_of("packing", &spec.packing, SQUEEZED)?.unwrap_or(PACKING);
+            let diameter_mm = spec.diameter_mm.as_ref().map(|_| diameter_mm);
+            let density = fibre.spun_density(given, tex, diameter_mm);
+            let packing = number_of("packing", &spec.packing, PACKING_LIMITS)?.unwrap_or(PACKING);
             fibre.least_area(density, packing)
         }
     };

@@ -5,8 +5,7 @@ use std::collections::{HashMap, HashSet};
 use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::weft::KnitYarn;
 use texere_fabric::{
-    COTTON_DENSITY, Fibre, PACKING, Thread, Woven, density_from_tex, diameter_mm, turns_per_m,
-    twist_from_turns_per_m,
+    COTTON_DENSITY, Fibre, PACKING, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m,
 };
 
 use super::super::WriteError;
@@ -198,12 +197,11 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
     };
     keys.extend(tex.map(|tex| format!("tex = {tex:?}")));
     let reads = |diameter: f64| (diameter / 2.0) as f32 == thread.radius_mm;
-    let mut density = COTTON_DENSITY;
-    if !tex.is_some_and(|tex| reads(diameter_mm(tex, COTTON_DENSITY))) {
-        let diameter = nearest(2.0 * f64::from(thread.radius_mm), reads).0;
+    let known = tex.is_some_and(|tex| reads(diameter_mm(tex, COTTON_DENSITY)));
+    let diameter = (!known).then(|| nearest(2.0 * f64::from(thread.radius_mm), reads).0);
+    if let Some(diameter) = diameter {
         within(FORMAT, || field("diameter_mm"), diameter, limits::LENGTH_MM)?;
         keys.push(format!("diameter_mm = {diameter:?}"));
-        density = tex.map_or(density, |tex| density_from_tex(tex, diameter));
     }
     let [red, green, blue] = material.srgb;
     keys.push(format!("color = \"#{red:02x}{green:02x}{blue:02x}\""));
@@ -214,6 +212,7 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
         }
     }
     let least_area = thread.least_area;
+    let density = Fibre::Cotton.spun_density(None, tex, diameter);
     if least_area != Fibre::Cotton.least_area(density, PACKING) {
         keys.push(format!(
             "least_area = {:?}",

@@ -30,7 +30,8 @@ impl Build {
         let released = [&["--release"][..], &released, &["--features", "texere-capi/default"]].concat();
         let chosen = match self {
             Self::Released => released,
-            Self::Tested => vec!["--workspace", "--lib", "--bin", "texere"],
+            // Examples have the features of tests. Without examples, all would be compiled twice.
+            Self::Tested => vec!["--workspace", "--lib", "--bin", "texere", "--examples"],
         };
         steps.cargo("the program and its libraries", &[&["build", "--locked"][..], &chosen].concat(), &[]);
     }

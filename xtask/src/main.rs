@@ -106,9 +106,14 @@ fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
     install(steps, "a screen", &SCREEN);
     consumer(steps);
-    steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
-    steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
-    python(steps, Build::Tested);
+    // Many tests keep one core busy. Those of the Python package run beside them.
+    steps.beside(
+        |steps| {
+            steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
+            steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+        },
+        |steps| python(steps, Build::Tested),
+    );
 }
 
 /// Builds and tests the Python package.
@@ -146,8 +151,8 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles the package `texere` without features, and then with one feature at a time. Tests it
-/// without features. Counts the packages that it links with its default features.
+/// Compiles the package `texere` without features, and then with one feature at a time. Counts the
+/// packages that it links with its default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "obj", "pictures", "ply", "stl", "texgen", "toml", "wif"]
     {
@@ -155,8 +160,6 @@ fn features(steps: &mut Steps) {
         let package = ["--package", "texere", "--locked", "--no-default-features", "--features", feature];
         steps.cargo(&name, &[&["clippy"][..], &package, &["--", "-D", "warnings"]].concat(), &[]);
     }
-    let bare = ["test", "--lib", "--package", "texere", "--locked", "--no-default-features"];
-    steps.cargo("the library without features", &bare, &[]);
     let tree =
         ["tree", "--package", "texere", "--edges", "normal", "--prefix", "none", "--no-dedupe", "--locked"];
     let Some(tree) = steps.output("cargo", &tree, &[]) else { return };

@@ -1,7 +1,9 @@
 //! Steps: commands run one after the other from the repository's root, each with its time.
 
+use std::io::{self, Write};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// The steps that have run. After a failure all further steps are skipped.
@@ -9,6 +11,8 @@ use std::time::{Duration, Instant};
 pub(crate) struct Steps {
     done: Vec<(String, Duration)>,
     failed: Option<String>,
+    /// What the steps print, if it is kept until they have run.
+    kept: Option<Vec<u8>>,
 }
 
 impl Steps {
@@ -22,15 +26,43 @@ impl Steps {
         if self.failed.is_some() {
             return;
         }
-        println!("\n==> {name}: {}", program.join(" "));
+        let title = format!("\n==> {name}: {}\n", program.join(" "));
         let start = Instant::now();
-        let status = command(program[0], &program[1..]).envs(env.iter().copied()).status();
+        let mut command = command(program[0], &program[1..]);
+        command.envs(env.iter().copied());
+        let status = match &mut self.kept {
+            None => {
+                print!("{title}");
+                command.status()
+            }
+            Some(kept) => command.output().map(|output| {
+                kept.extend([title.as_bytes(), &output.stdout, &output.stderr].concat());
+                output.status
+            }),
+        };
         self.done.push((name.into(), start.elapsed()));
         match status {
             Ok(status) if status.success() => {}
             Ok(status) => self.failed = Some(format!("{name}: {status}")),
             Err(error) => self.failed = Some(format!("{name}: {error}")),
         }
+    }
+
+    /// Runs the steps of `one`, and those of `other` beside them. What the steps of `other` print
+    /// is printed at the end.
+    pub(crate) fn beside(&mut self, one: impl FnOnce(&mut Self), other: impl FnOnce(&mut Self) + Send) {
+        if self.failed.is_some() {
+            return;
+        }
+        let mut beside = Self { kept: Some(Vec::new()), ..Self::default() };
+        thread::scope(|scope| {
+            scope.spawn(|| other(&mut beside));
+            one(self);
+        });
+        // What can't be printed has been run all the same.
+        let _ = io::stdout().write_all(&beside.kept.unwrap_or_default());
+        self.done.append(&mut beside.done);
+        self.failed = self.failed.take().or(beside.failed);
     }
 
     /// A command's standard output and error output, if it succeeds.

@@ -23,7 +23,7 @@ const PASSES: usize = 10;
 /// A Jacquard of `ends` by `picks` that repeats nowhere: satin of 8 with a figure in plain weave,
 /// at a pitch of 1.75 diameters.
 fn jacquard((ends, picks): (usize, usize), passes: u32) -> Crossings {
-    let thread = CrossingThread { pitch: 0.35, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+    let thread = CrossingThread::new(0.35, 0.2);
     let figure = |end: usize, pick: usize| {
         let [x, y] = [end as f64 / ends as f64, pick as f64 / picks as f64].map(|share| share - 0.5);
         (x * x + y * y < 0.16) && (17.0 * x + 11.0 * y * y).sin() > 0.0

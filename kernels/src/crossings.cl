@@ -22,11 +22,13 @@ typedef struct {
     uint padding[2];
 } CrossingsParams;
 
-// Rust: texere_gpu::ThreadRow, 36 bytes.
+// Rust: texere_gpu::ThreadRow, 44 bytes.
 typedef struct {
     float gap;
     float radius;
     float stiffness;
+    float aspect;
+    float shape;
     float least_area;
     float freedom;
     float height;

@@ -26,13 +26,13 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const Thr
     float radius = thread->radius;
     float wide = lie.z / radius;
     float thick = lie.w / radius;
-    float4 aspect = (float4)(0.0f, 0.0f, 1.0f / radius, -CROSSINGS_ASPECT / radius);
-    add_own(block, CROSSINGS_SHAPE, 1.0f, wide - CROSSINGS_ASPECT * thick, aspect);
+    float4 slopes = (float4)(0.0f, 0.0f, 1.0f / radius, -thread->aspect / radius);
+    add_own(block, thread->shape, 1.0f, wide - thread->aspect * thick, slopes);
     float gain = wide * thick - cloth->params->area;
     // Near its full area a section grows no faster than a section above it shrinks.
     float weight = gain < -CROSSINGS_NEAR ? CROSSINGS_AREA_LOSS : CROSSINGS_AREA_GAIN;
     float residual = gain < 0.0f ? CROSSINGS_AREA_LOSS / weight * gain : gain;
-    float4 slopes = (float4)(0.0f, 0.0f, thick / radius, wide / radius);
+    slopes = (float4)(0.0f, 0.0f, thick / radius, wide / radius);
     add_own(block, weight, 1.0f, residual, slopes);
     float room = wide * thick - thread->least_area * cloth->params->area - CROSSINGS_MARGIN;
     if (room < CROSSINGS_NEAR) {

@@ -20,11 +20,13 @@ struct CrossingsParams {
     padding: vec2<u32>,
 }
 
-// Rust: texere_gpu::ThreadRow, 36 bytes.
+// Rust: texere_gpu::ThreadRow, 44 bytes.
 struct ThreadRow {
     gap: f32,
     radius: f32,
     stiffness: f32,
+    aspect: f32,
+    shape: f32,
     least_area: f32,
     freedom: f32,
     height: f32,

@@ -29,8 +29,8 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: Thre
     let radius = thread.radius;
     let wide = lie.z / radius;
     let thick = lie.w / radius;
-    let aspect = vec4(0.0, 0.0, 1.0 / radius, -CROSSINGS_ASPECT / radius);
-    add_own(block, CROSSINGS_SHAPE, 1.0, wide - CROSSINGS_ASPECT * thick, aspect);
+    let sides = vec4(0.0, 0.0, 1.0 / radius, -thread.aspect / radius);
+    add_own(block, thread.shape, 1.0, wide - thread.aspect * thick, sides);
     let gain = wide * thick - cloth.area;
     // Near its full area a section grows no faster than a section above it shrinks.
     let weight = select(CROSSINGS_AREA_GAIN, CROSSINGS_AREA_LOSS, gain < -CROSSINGS_NEAR);

@@ -189,7 +189,19 @@ fn tables_of_crossings_lie_as_in_rust() {
     let (module, _) = parse(&crossings::MOVE);
     same_layout!(
         &module,
-        ThreadRow { gap, radius, stiffness, least_area, freedom, height, level, before, after }
+        ThreadRow {
+            gap,
+            radius,
+            stiffness,
+            aspect,
+            shape,
+            least_area,
+            freedom,
+            height,
+            level,
+            before,
+            after
+        }
     );
     same_layout!(
         &module,

@@ -17,8 +17,7 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     let plan = Arc::new(Plan::new(yarns.layout().clone(), Settings::default())?);
     let starts = rest::starts();
     let start = starts.first().ok_or("no start of a settling")?;
-    let threads =
-        || vec![CrossingThread { pitch: 0.5, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 }; 2];
+    let threads = || vec![CrossingThread::new(0.5, 0.2); 2];
     let plain = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], threads(), threads()))?;
 
     let refused = |error: &BackendError| matches!(error, BackendError::NoSettling { .. });

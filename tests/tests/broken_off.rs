@@ -33,7 +33,7 @@ fn zigzags(rows: usize) -> Arc<SettlingPlan> {
 
 /// Plain weave of `ends` ends and a hundred picks.
 fn plain(ends: usize) -> Arc<CrossingsPlan> {
-    let thread = CrossingThread { pitch: 0.45, diameter: 0.3, stiffness: 1.0, least_area: 0.75, level: 0 };
+    let thread = CrossingThread::new(0.45, 0.3);
     let ups = (0..ends * 100).map(|number| (number / ends + number % ends).is_multiple_of(2)).collect();
     Arc::new(CrossingsPlan::new(&Crossings::new(ups, vec![thread; ends], vec![thread; 100])).expect("a plan"))
 }

@@ -23,13 +23,7 @@ fn even(
     [ends, picks]: [usize; 2],
     up: fn(usize, usize) -> bool,
 ) -> Crossings {
-    let [warp, weft] = [0, 1].map(|set| CrossingThread {
-        pitch: pitch[set],
-        diameter: diameter[set],
-        stiffness: 1.0,
-        least_area: 0.75,
-        level: 0,
-    });
+    let [warp, weft] = [0, 1].map(|set: usize| CrossingThread::new(pitch[set], diameter[set]));
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
     Crossings::new(ups, vec![warp; ends], vec![weft; picks])
 }
@@ -46,8 +40,9 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
             pitch: pitch * (1.0 + 0.2 * chance()),
             diameter: 0.3 * (1.0 + 0.3 * chance()),
             stiffness: 1.0 + 0.5 * chance(),
-            least_area: 0.75,
-            level: 0,
+            firmness: 1.0 + 0.5 * chance(),
+            flatness: 1.0 + 0.3 * chance(),
+            ..CrossingThread::new(0.0, 0.0)
         };
         (0..count).map(thread).collect()
     };
@@ -61,11 +56,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
 fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2]) -> Crossings {
     let threads = |count: usize, levels: u32, spacing: f32| -> Vec<CrossingThread> {
         let thread = |number: usize| CrossingThread {
-            pitch: spacing / levels as f32,
-            diameter: 0.2,
-            stiffness: 1.0,
-            least_area: 0.75,
             level: levels - 1 - number as u32 % levels,
+            ..CrossingThread::new(spacing / levels as f32, 0.2)
         };
         (0..count).map(thread).collect()
     };

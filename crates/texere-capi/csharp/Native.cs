@@ -3018,6 +3018,13 @@ namespace Texere
         /// </summary>
         public float stiffness;
         /// <summary>
+        ///  How firmly the section keeps its shape when the yarns come to rest, 0.01 to 100; 1 for
+        ///  cotton of ordinary twist. Hard-twisted yarn is firmer and stays rounder, and filament
+        ///  without twist spreads flat at 0.1. 0 stands for what follows from `twist`, and for 1 without
+        ///  twist.
+        /// </summary>
+        public float firmness;
+        /// <summary>
         ///  Twist, radians per mm; positive is Z twist.
         /// </summary>
         public float twist;
@@ -3035,6 +3042,10 @@ namespace Texere
         ///  cotton, 0.7476.
         /// </summary>
         public float least_area;
+        /// <summary>
+        ///  Unused, 0.
+        /// </summary>
+        public uint reserved;
     }
 
     /// <summary>

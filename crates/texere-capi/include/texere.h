@@ -1138,6 +1138,11 @@ typedef struct texere_thread {
   // Stiffness against bending when the yarns come to rest, 0.01 to 100; 1 for cotton yarn of the
   // same diameter. 0 stands for 1.
   float stiffness;
+  // How firmly the section keeps its shape when the yarns come to rest, 0.01 to 100; 1 for
+  // cotton of ordinary twist. Hard-twisted yarn is firmer and stays rounder, and filament
+  // without twist spreads flat at 0.1. 0 stands for what follows from `twist`, and for 1 without
+  // twist.
+  float firmness;
   // Twist, radians per mm; positive is Z twist.
   float twist;
   // The number of its material, from 0.
@@ -1148,6 +1153,8 @@ typedef struct texere_thread {
   // round yarn's section, up to 1: fibres can't be packed more closely. 0 stands for that of
   // cotton, 0.7476.
   float least_area;
+  // Unused, 0.
+  uint32_t reserved;
 } texere_thread;
 
 // Lists of numbers, which lie one behind the other in one array.

@@ -60,12 +60,12 @@ pub(crate) fn refused(name: &str, error: FabricError, bars: &[Bar]) -> Failure {
 
 /// The array element that the subject of an error comes from, such as `warp[2]`.
 fn array_of(subject: Subject, bars: &[Bar]) -> Option<String> {
-    use Subject::{Color, Flatness, Jacquard, LeastArea, Offset, RunIn, Section, Spacing, Stiffness};
-    use Subject::{Thickness, Threading, Twist};
+    use Subject::{Color, Firmness, Flatness, Jacquard, LeastArea, Offset, RunIn, Section, Spacing};
+    use Subject::{Stiffness, Thickness, Threading, Twist};
     let bar = |number: usize, member: &str| Some(format!("bars[{}].{member}", number.checked_sub(1)?));
     let thread = match subject {
-        Spacing(thread) | Thickness(thread) | Flatness(thread) | Stiffness(thread) | LeastArea(thread)
-        | Twist(thread) | Color(thread) | Section(thread) => thread,
+        Spacing(thread) | Thickness(thread) | Flatness(thread) | Stiffness(thread) | Firmness(thread)
+        | LeastArea(thread) | Twist(thread) | Color(thread) | Section(thread) => thread,
         Threading(number) => return bar(number, "threading"),
         Offset(number) => return bar(number, "offset"),
         RunIn(number) => return bar(number, "run_in_mm"),

@@ -4,7 +4,7 @@
 use std::ffi::c_char;
 
 use texere::woven::{Crimp, Draft, Drawdown, Relief, Shape, Thread, Woven, WovenDesign};
-use texere::yarn::COTTON_LEAST_AREA;
+use texere::yarn::{COTTON_LEAST_AREA, firmness_from_twist};
 use texere::{Design, Structure};
 
 use crate::argument::text;
@@ -34,6 +34,11 @@ pub struct texere_thread {
     /// Stiffness against bending when the yarns come to rest, 0.01 to 100; 1 for cotton yarn of the
     /// same diameter. 0 stands for 1.
     pub stiffness: f32,
+    /// How firmly the section keeps its shape when the yarns come to rest, 0.01 to 100; 1 for
+    /// cotton of ordinary twist. Hard-twisted yarn is firmer and stays rounder, and filament
+    /// without twist spreads flat at 0.1. 0 stands for what follows from `twist`, and for 1 without
+    /// twist.
+    pub firmness: f32,
     /// Twist, radians per mm; positive is Z twist.
     pub twist: f32,
     /// The number of its material, from 0.
@@ -44,6 +49,8 @@ pub struct texere_thread {
     /// round yarn's section, up to 1: fibres can't be packed more closely. 0 stands for that of
     /// cotton, 0.7476.
     pub least_area: f32,
+    /// Unused, 0.
+    pub reserved: u32,
 }
 
 /// Threads bend round one another as round threads do, and floats lie flat.
@@ -110,15 +117,18 @@ grows_after!(texere_woven, looks);
 
 impl texere_thread {
     fn read(&self) -> Thread {
-        let Self { spacing_mm, diameter_mm, flatness, stiffness, twist, material, section, least_area } =
+        let Self { spacing_mm, diameter_mm, flatness, stiffness, firmness, twist, material, section, .. } =
             *self;
+        let radius_mm = (diameter_mm / 2.0) as f32;
+        let of_twist = if twist == 0.0 { 1.0 } else { firmness_from_twist(twist, radius_mm) };
         let or_one = |value: f32| if value == 0.0 { 1.0 } else { value };
         Thread {
             spacing_mm,
-            radius_mm: (diameter_mm / 2.0) as f32,
+            radius_mm,
             flatness: or_one(flatness),
             stiffness: or_one(stiffness),
-            least_area: if least_area == 0.0 { COTTON_LEAST_AREA } else { least_area },
+            firmness: if firmness == 0.0 { of_twist } else { firmness },
+            least_area: if self.least_area == 0.0 { COTTON_LEAST_AREA } else { self.least_area },
             material,
             section,
             twist,

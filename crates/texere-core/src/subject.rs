@@ -42,6 +42,8 @@ pub enum Subject {
     Flatness(Origin),
     /// The stiffness of a thread.
     Stiffness(Origin),
+    /// The firmness of a thread's section.
+    Firmness(Origin),
     /// The least area of a thread's section.
     LeastArea(Origin),
     /// The twist of a thread.
@@ -126,6 +128,8 @@ impl CrossingsError {
                 match *setting {
                     "pitch" => Subject::Spacing(thread),
                     "stiffness" => Subject::Stiffness(thread),
+                    "firmness" => Subject::Firmness(thread),
+                    "flatness" => Subject::Flatness(thread),
                     "least area" => Subject::LeastArea(thread),
                     "diameter" => Subject::Thickness(thread),
                     _ => Subject::Structure,

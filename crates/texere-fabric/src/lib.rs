@@ -74,6 +74,6 @@ pub use woven::{
 };
 pub use yarn_check::ThreadError;
 pub use yarn_size::{
-    COTTON_DENSITY, density_from_tex, diameter_mm, tex_from_cotton_count, tex_from_denier, tex_from_diameter,
-    tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
+    COTTON_DENSITY, density_from_tex, diameter_mm, firmness_from_twist, tex_from_cotton_count,
+    tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m, twist_from_turns_per_m,
 };

@@ -58,6 +58,7 @@ impl WovenError {
             Self::Extent { .. } => Subject::Picks,
             Self::Flatness { thread, .. } | Self::Half { thread, .. } => Subject::Flatness(thread),
             Self::Stiffness { thread, .. } => Subject::Stiffness(thread),
+            Self::Firmness { thread, .. } => Subject::Firmness(thread),
             Self::LeastArea { thread, .. } => Subject::LeastArea(thread),
             Self::Crimp { .. } => Subject::Crimp,
         })

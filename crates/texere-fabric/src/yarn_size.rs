@@ -112,6 +112,36 @@ pub fn turns_per_m(twist: f32) -> f64 {
     f64::from(twist) * 1000.0 / TAU
 }
 
+/// The tangent of the angle between the fibres on the surface of a cotton yarn of ordinary twist
+/// and the yarn's axis.
+///
+/// **Source**: Peirce's diameter, and a twist factor of 3,600 turns/m √tex, as of ring-spun cotton
+/// for weaving.
+const ORDINARY_TWIST: f32 = 0.42;
+
+/// The firmness of filament without twist, and that of the hardest twist. With 0.03, the threads of
+/// a taffeta of filament overlap (`filament_covers_and_hard_twist_stays_round`).
+const FIRMNESS: [f32; 2] = [0.1, 10.0];
+
+/// How firmly the section of a yarn keeps its shape in woven cloth at rest
+/// ([`Thread::firmness`](crate::Thread::firmness)), from its twist (rad/mm) and its radius when it
+/// is round (mm): 1 for cotton of ordinary twist, 0.1 without twist, 10 at most.
+///
+/// Twist presses the fibres together. Its pressure grows with the square of the tangent of the
+/// angle between the fibres on the surface and the yarn's axis (Hearle, Grosberg and Backer,
+/// "Structural Mechanics of Fibers, Yarns, and Fabrics", 1969).
+///
+/// ```
+/// use texere_fabric::{firmness_from_twist, twist_from_turns_per_m};
+/// let [soft, hard] = [300.0, 1500.0].map(twist_from_turns_per_m);
+/// assert!(firmness_from_twist(soft, 0.08) < 0.5 && firmness_from_twist(hard, 0.08) > 2.0);
+/// ```
+#[must_use]
+pub fn firmness_from_twist(twist: f32, radius_mm: f32) -> f32 {
+    let [soft, hard] = FIRMNESS;
+    (twist * radius_mm / ORDINARY_TWIST).powi(2).clamp(soft, hard)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

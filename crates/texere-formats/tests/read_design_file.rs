@@ -532,6 +532,27 @@ fn bytes_that_are_not_text_are_refused() {
     assert!(error.contains("line 2"), "{error}");
 }
 
+/// A yarn is as firm as its twist makes it. Filament without twist is soft, which has to be stated:
+/// where a design says nothing of twist, the yarn is cotton of ordinary twist.
+#[test]
+fn firmness_follows_twist() {
+    let firmness = |lines: &str| {
+        let text = DENIM.replace("tex = 84.0", lines).replace("twist_per_m = -500.0\n", "");
+        cloth(&text).warp()[0].firmness
+    };
+    assert_eq!(firmness("tex = 84.0"), 1.0);
+    assert_eq!(firmness("tex = 84.0\ntwist_per_m = 0.0"), 0.1);
+    assert_eq!(firmness("tex = 84.0\ntwist_per_m = 0.0\nfirmness = 3.0"), 3.0);
+    assert_eq!(firmness("tex = 84.0\ntwist_per_m = 9000.0"), 10.0);
+    // 500 turns a metre on a radius of 0.1715 mm.
+    let tangent =
+        0.5 * std::f64::consts::TAU * (4.0 * 84.0 * 1.1 / (1000.0 * std::f64::consts::PI)).sqrt() / 2.0;
+    for twist in ["500.0", "-500.0"] {
+        let found = f64::from(firmness(&format!("tex = 84.0\ntwist_per_m = {twist}")));
+        assert!((found - (tangent / 0.42).powi(2)).abs() < 1e-5, "{twist}: {found}");
+    }
+}
+
 /// What a yarn can be squeezed to follows from its own density, and from how dense its fibre is.
 #[test]
 fn a_yarn_keeps_its_own_density_over_that_of_its_packed_fibre() {
@@ -566,7 +587,7 @@ fn a_yarn_keeps_its_own_density_over_that_of_its_packed_fibre() {
 /// The limit that a refusal names is itself allowed.
 #[test]
 fn limits_themselves_are_taken() {
-    let limits = ["stiffness", "flatness", "hairiness", "packing", "least_area"].map(|key| {
+    let limits = ["stiffness", "firmness", "flatness", "hairiness", "packing", "least_area"].map(|key| {
         let outside = DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = 1e6"));
         let Err(ReadError::OutOfRange { low, high, .. }) = read_text(&outside) else { panic!("{key}") };
         (key, [low, high])

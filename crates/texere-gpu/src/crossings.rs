@@ -12,7 +12,7 @@ pub const CROSSINGS_PASSES: u32 = 16;
 
 /// A thread. Lengths are in the plan's unit.
 ///
-/// **Shape**: six `f32` and three `i32`, 36 bytes. A table has all ends, then all picks.
+/// **Shape**: eight `f32` and three `i32`, 44 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
@@ -22,6 +22,10 @@ pub struct ThreadRow {
     pub radius: f32,
     /// The thread's stiffness against bending.
     pub stiffness: f32,
+    /// The ratio of width to thickness that the thread tends to.
+    pub aspect: f32,
+    /// The weight of the difference from that ratio.
+    pub shape: f32,
     /// The least area of the thread's section, as a share of its area.
     pub least_area: f32,
     /// The largest shift of the thread to either side.
@@ -36,7 +40,7 @@ pub struct ThreadRow {
     pub after: i32,
 }
 
-const _: () = assert!(size_of::<ThreadRow>() == 36 && std::mem::offset_of!(ThreadRow, after) == 32);
+const _: () = assert!(size_of::<ThreadRow>() == 44 && std::mem::offset_of!(ThreadRow, after) == 40);
 
 /// The parameters of a pass.
 ///
@@ -90,9 +94,10 @@ impl ThreadRow {
     #[must_use]
     pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
         let row = |row: &Row| {
-            let &Row { gap, radius, stiffness, least_area, freedom, height, level, beside } = row;
+            let &Row { gap, radius, stiffness, aspect, shape, least_area, freedom, height, level, beside } =
+                row;
             let [before, after] = beside;
-            Self { gap, radius, stiffness, least_area, freedom, height, level, before, after }
+            Self { gap, radius, stiffness, aspect, shape, least_area, freedom, height, level, before, after }
         };
         Set::BOTH.into_iter().flat_map(|set| plan.rows(set)).map(row).collect()
     }
@@ -111,7 +116,7 @@ impl CrossingsParams {
     /// ```
     /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, CrossingThread};
     /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
-    /// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+    /// let thread = CrossingThread::new(0.4, 0.2);
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);

@@ -142,9 +142,7 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
 /// The constants of settling by crossings, which are also written before all sources. The flags
 /// `REPEATS_ENDS`, `REPEATS_PICKS` and `LAYERED` belong to [`CrossingsParams`]. All others are
 /// constants of the core.
-pub const CROSSINGS_CONSTANTS: [Constant; 30] = [
-    float("CROSSINGS_ASPECT", crossings::ASPECT),
-    float("CROSSINGS_SHAPE", crossings::SHAPE),
+pub const CROSSINGS_CONSTANTS: [Constant; 28] = [
     float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
     float("CROSSINGS_AREA_GAIN", crossings::AREA_GAIN),
     float("CROSSINGS_SOLID", crossings::SOLID),
@@ -217,7 +215,7 @@ mod tests {
 
     /// The constants that come from the core, each named once more. The test fails if a value in
     /// the tables above differs.
-    const OF_THE_CORE: [(&str, &[f32]); 87] = [
+    const OF_THE_CORE: [(&str, &[f32]); 85] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -278,8 +276,6 @@ mod tests {
         ("TAG_OPENS", &[settling::tag::OPENS as f32]),
         ("TAG_ENDS", &[settling::tag::ENDS as f32]),
         ("TAG_PINNED", &[settling::tag::PINNED as f32]),
-        ("CROSSINGS_ASPECT", &[crossings::ASPECT]),
-        ("CROSSINGS_SHAPE", &[crossings::SHAPE]),
         ("CROSSINGS_AREA_LOSS", &[crossings::AREA_LOSS]),
         ("CROSSINGS_AREA_GAIN", &[crossings::AREA_GAIN]),
         ("CROSSINGS_SOLID", &[crossings::SOLID]),

@@ -4,7 +4,10 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use texere::weft::KnitYarn;
 use texere::woven::Thread;
-use texere::yarn::{Fibre, Material, PACKING, PACKING_LIMITS, Section, diameter_mm, twist_from_turns_per_m};
+use texere::yarn::{
+    Fibre, Material, PACKING, PACKING_LIMITS, Section, diameter_mm, firmness_from_twist,
+    twist_from_turns_per_m,
+};
 
 /// A yarn as it lies on the bobbin: what a design in code is made of.
 ///
@@ -13,7 +16,9 @@ use texere::yarn::{Fibre, Material, PACKING, PACKING_LIMITS, Section, diameter_m
 /// is turns per metre, above 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to
 /// 255, sRGB. ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect,
 /// distortion)``, ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness``
-/// (width over height in the cloth, 0.1 to 10) and ``stiffness`` (0.01 to 100, 1 for cotton) count
+/// (width over height in the cloth, 0.1 to 10), ``stiffness`` (0.01 to 100, 1 for cotton) and
+/// ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to 100, 1 for cotton of
+/// ordinary twist; if it is not given, it follows from ``twist_per_m``, where this is given) count
 /// in woven cloth alone, as do ``fibre`` (``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``,
 /// ``"silk"``, ``"viscose"`` or ``"wool"``) and ``packing``, the largest share of its section that
 /// the fibre of a squeezed yarn fills, up to 0.91. ``hairiness``, 0 to 30, is the H of Uster
@@ -38,13 +43,14 @@ pub(crate) struct YarnSpec {
     twist: f32,
     flatness: f32,
     stiffness: f32,
+    firmness: f32,
     least_area: f32,
 }
 
 #[pymethods]
 impl YarnSpec {
     #[new]
-    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=0.0, section=None, flatness=1.0, stiffness=1.0, hairiness=0.0, fibre="cotton", packing=PACKING))]
+    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=None, section=None, flatness=1.0, stiffness=1.0, firmness=None, hairiness=0.0, fibre="cotton", packing=PACKING))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn new(
         diameter_mm: Option<f64>,
@@ -52,10 +58,11 @@ impl YarnSpec {
         density: Option<f64>,
         color: Option<&Bound<'_, PyAny>>,
         name: &str,
-        twist_per_m: f64,
+        twist_per_m: Option<f64>,
         section: Option<&Bound<'_, PyAny>>,
         flatness: f32,
         stiffness: f32,
+        firmness: Option<f32>,
         hairiness: f32,
         fibre: &str,
         packing: f64,
@@ -82,9 +89,11 @@ impl YarnSpec {
         let section = section.map_or(Ok(Section::Circle), self::section)?;
         section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
         let material = Material { name: name.into(), srgb, tex, hairiness };
-        let twist = twist_from_turns_per_m(twist_per_m) as f32;
+        let twist = twist_from_turns_per_m(twist_per_m.unwrap_or(0.0)) as f32;
+        let of_twist = twist_per_m.map(|_| firmness_from_twist(twist, (diameter_mm / 2.0) as f32));
+        let firmness = firmness.or(of_twist).unwrap_or(1.0);
         let least_area = fibre.least_area(density, packing);
-        Ok(Self { material, section, diameter_mm, twist, flatness, stiffness, least_area })
+        Ok(Self { material, section, diameter_mm, twist, flatness, stiffness, firmness, least_area })
     }
 
     /// The name of the yarn's material.
@@ -148,7 +157,7 @@ fn section(value: &Bound<'_, PyAny>) -> PyResult<Section> {
 pub(crate) struct Bobbins {
     pub(crate) materials: Vec<Material>,
     pub(crate) sections: Vec<Section>,
-    yarns: Vec<(KnitYarn, [f32; 3])>,
+    yarns: Vec<(KnitYarn, [f32; 4])>,
 }
 
 impl Bobbins {
@@ -179,7 +188,7 @@ impl Bobbins {
                 twist: yarn.twist,
             };
             self.materials.push(yarn.material.clone());
-            self.yarns.push((own, [yarn.flatness, yarn.stiffness, yarn.least_area]));
+            self.yarns.push((own, [yarn.flatness, yarn.stiffness, yarn.firmness, yarn.least_area]));
         }
         Ok((first..self.yarns.len()).collect())
     }
@@ -192,7 +201,7 @@ impl Bobbins {
     /// A thread of the yarn with number `number`, in a column of the cloth `spacing_mm` wide.
     pub(crate) fn thread(&self, number: usize, spacing_mm: f64) -> Thread {
         let (KnitYarn { radius_mm, material, section, twist }, sizes) = self.yarns[number];
-        let [flatness, stiffness, least_area] = sizes;
-        Thread { spacing_mm, radius_mm, flatness, stiffness, least_area, material, section, twist }
+        let [flatness, stiffness, firmness, least_area] = sizes;
+        Thread { spacing_mm, radius_mm, flatness, stiffness, firmness, least_area, material, section, twist }
     }
 }

@@ -70,6 +70,7 @@ CALLS = {
     "a section of four billion plies": lambda: texere.Yarn(diameter_mm=1, section=("lobed", 4_000_000_000)),
     "a twist of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, twist_per_m=NAN)),
     "a hairiness of 1000": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, hairiness=1000)).placed(),
+    "a firmness of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, firmness=NAN)),
     "a stiffness of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, stiffness=NAN)),
     "an unknown fibre": lambda: texere.Yarn(diameter_mm=0.2, fibre="hemp"),
     "fibre packed beyond hexagons": lambda: texere.Yarn(diameter_mm=0.2, packing=0.95),

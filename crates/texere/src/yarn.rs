@@ -6,7 +6,7 @@
 //! | say what a yarn is made of, and what its section is | [`Material`], [`Section`] |
 //! | say how a yarn ends, and whether a fabric goes on beyond its edges | [`Ends`], [`Boundary`] |
 //! | know which thread of a design a yarn is | [`Origin`] |
-//! | turn a yarn count into a diameter, turns per metre into twist | [`diameter_mm`], [`tex_from_cotton_count`] and the like, [`twist_from_turns_per_m`] |
+//! | turn a yarn count into a diameter, turns per metre into twist, twist into firmness | [`diameter_mm`], [`tex_from_cotton_count`] and the like, [`twist_from_turns_per_m`], [`firmness_from_twist`] |
 //! | know how long yarns are | [`length_mm`], [`lengths_mm`] |
 //! | know which yarns lie under a point of the cloth | [`yarns_under`], which gives a [`YarnPlace`] for each |
 //! | know the limits of control points and yarns | [`COORDINATE_LIMIT`], [`RADIUS_MIN`], [`RADIUS_MAX`], [`TWIST_LIMIT`], [`HAIRINESS_LIMIT`] |
@@ -31,6 +31,6 @@ pub use texere_core::{
 };
 pub use texere_fabric::{
     COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS, density_from_tex, diameter_mm,
-    tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count, turns_per_m,
-    twist_from_turns_per_m,
+    firmness_from_twist, tex_from_cotton_count, tex_from_denier, tex_from_diameter, tex_from_metric_count,
+    turns_per_m, twist_from_turns_per_m,
 };

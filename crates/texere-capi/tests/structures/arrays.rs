@@ -56,11 +56,13 @@ pub(crate) fn with_woven<T>(
         diameter_mm: diameter(30.0, 0.9),
         flatness: 0.0,
         stiffness: 0.0,
+        firmness: 0.0,
         twist: TWIST,
         material: 0,
         section: 0,
         // Of 0.9 g/cm3, of cotton packed to 0.8.
         least_area: (0.9 / (0.8 * 1.52)) as f32,
+        reserved: 0,
     };
     let other =
         texere_thread { diameter_mm: 0.25, least_area: 0.0, twist: 0.0, material: 1, section: 1, ..none };

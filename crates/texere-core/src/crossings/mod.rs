@@ -28,11 +28,11 @@ pub use pass::CrossingsPass;
 pub use passage::{CURVED, STEPS, StraightPassage, TURN};
 pub use plan::CrossingsPlan;
 pub use problem::{CrossingThread, Crossings};
-pub use rows::{Row, Site};
+pub use rows::{ASPECT, Row, SHAPE, Site};
 pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
 pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP, UPHILL};
 pub use terms::{
-    AREA_GAIN, AREA_LOSS, ASPECT, BEND, MARGIN, NEAR, PRESS, SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH,
-    SOLID, STEEPER, TENSION, TOUCH,
+    AREA_GAIN, AREA_LOSS, BEND, MARGIN, NEAR, PRESS, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER,
+    TENSION, TOUCH,
 };

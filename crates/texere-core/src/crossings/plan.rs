@@ -20,14 +20,22 @@ const DIAMETER: [f32; 2] = [0.1, 10.0];
 /// The least and the largest stiffness of a thread.
 const STIFFNESS: [f32; 2] = [0.01, 100.0];
 
+/// The least and the largest firmness of a thread's section.
+const FIRMNESS: [f32; 2] = [0.01, 100.0];
+
+/// The least and the largest flatness of a thread's section.
+const FLATNESS: [f32; 2] = [0.1, 10.0];
+
 /// The least and the greatest least area of a thread's section, as a share of its area.
 const LEAST_AREA: [f32; 2] = [0.0, 1.0];
 
 /// The factor by which the weft is tauter than the warp. In very dense cloth one set takes most of
 /// the crimp, although warp and weft are alike. Without this factor, rounding would choose the set,
-/// and devices would disagree. 1.02 was tried, and gives square plain weave 2 % more crimp in the
-/// warp than in the weft (`balanced_plain_weave_is_alike_both_ways`).
-const WEFT_TAUTER: f32 = 1.0005;
+/// and devices would disagree. With 1.002, 3/1 twill at 1.04 times Ashenhurst's sett crimps in the
+/// weft, and a little closer or further apart in the warp (`crimp_and_thickness_follow_the_sett` of
+/// texere-fabric). With 1.02, square plain weave has 2 % more crimp in the warp than in the weft
+/// (`balanced_plain_weave_is_alike_both_ways`).
+const WEFT_TAUTER: f32 = 1.004;
 
 /// The most levels of a set.
 const LEVELS_MAX: u32 = 8;
@@ -47,7 +55,7 @@ const THIN: f32 = 0.632_455_5;
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, Set, Site, CrossingThread};
-/// let thread = CrossingThread { pitch: 0.5, diameter: 0.25, stiffness: 1.0, least_area: 0.75, level: 0 };
+/// let thread = CrossingThread::new(0.5, 0.25);
 /// let plan = CrossingsPlan::new(&Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]))?;
 /// assert_eq!((plan.unit(), plan.rows(Set::Warp)[0].gap), (0.25, 2.0));
 /// // Beyond the last end the first one comes again.
@@ -93,6 +101,8 @@ impl CrossingsPlan {
         for (set, threads) in ["warp", "weft"].into_iter().zip(&problem.threads) {
             each(set, "diameter", threads, |thread| thread.diameter, [2.0 * RADIUS_MIN, 2.0 * RADIUS_MAX])?;
             each(set, "stiffness", threads, |thread| thread.stiffness, STIFFNESS)?;
+            each(set, "firmness", threads, |thread| thread.firmness, FIRMNESS)?;
+            each(set, "flatness", threads, |thread| thread.flatness, FLATNESS)?;
             each(set, "least area", threads, |thread| thread.least_area, LEAST_AREA)?;
             each(set, "level", threads, |thread| thread.level as f32, [0.0, (LEVELS_MAX - 1) as f32])?;
         }
@@ -106,14 +116,17 @@ impl CrossingsPlan {
         }
         let levels = [0, 1].map(|set| levels(&problem.threads[set]));
         let height = HEIGHT * levels[0].max(levels[1]) as f32;
-        let row = |set: usize| rows(&problem.threads[set], unit, height, problem.repeats[set]);
+        // Weights of bends and shapes of at most those of cotton leave penalties the strongest.
+        // Tension and press have less effect on stiffer threads.
+        let stiffest = problem.threads.iter().flatten().map(|thread| thread.stiffness).fold(1.0, f32::max);
+        let row = |set: usize| rows(&problem.threads[set], unit, stiffest, height, problem.repeats[set]);
         Ok(Self {
             unit,
             ups: copied("the drawdown", &problem.ups)?,
             rows: [row(0)?, row(1)?],
             repeats: problem.repeats,
-            tension: [problem.tension[0], WEFT_TAUTER * problem.tension[1]],
-            press: problem.press / (levels[0].max(levels[1]) as f32).powi(2),
+            tension: [problem.tension[0], WEFT_TAUTER * problem.tension[1]].map(|tension| tension / stiffest),
+            press: problem.press / (levels[0].max(levels[1]) as f32).powi(2) / stiffest,
             passes: problem.passes,
             is_layered: levels[0] == levels[1],
         })

@@ -11,6 +11,11 @@ pub struct CrossingThread {
     pub diameter: f32,
     /// The stiffness against bending, 1 for a cotton yarn of its diameter.
     pub stiffness: f32,
+    /// How firmly the section keeps its shape, 1 for a cotton yarn of ordinary twist. A firmer
+    /// section tends to be rounder.
+    pub firmness: f32,
+    /// The ratio of width to thickness of the section when nothing presses it, 1 for a round yarn.
+    pub flatness: f32,
     /// The least area that the thread's section keeps, as a share of its area, from 0 to 1. A
     /// section is as small as that when its fibres can't be packed more closely. It is 0.75 for a
     /// cotton yarn.
@@ -22,12 +27,20 @@ pub struct CrossingThread {
     pub level: u32,
 }
 
+impl CrossingThread {
+    /// A cotton thread of ordinary twist, round when nothing presses it, of the lowest level.
+    #[must_use]
+    pub const fn new(pitch: f32, diameter: f32) -> Self {
+        Self { pitch, diameter, stiffness: 1.0, firmness: 1.0, flatness: 1.0, least_area: 0.75, level: 0 }
+    }
+}
+
 /// Woven cloth that is to come to rest.
 ///
 /// ```
 /// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
 /// // Plain weave, two ends and two picks a repeat; threads of 0.2 mm every 0.4 mm.
-/// let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+/// let thread = CrossingThread::new(0.4, 0.2);
 /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
 /// assert_eq!(CrossingsPlan::new(&plain)?.crossings(), 4);
 /// # Ok::<(), texere_core::CrossingsError>(())

@@ -10,7 +10,7 @@
 //!     block = no equations                  8 unknowns: shift, height, half width, half height
 //!                                                       of the end, then of the pick
 //!     for the end, then the pick:
-//!         own        half width is ASPECT half heights; height is 0; area is the yarn's,
+//!         own        section has the shape that it tends to; height is 0; area is the yarn's,
 //!                    and no less than its fibres fill
 //!         bends      second differences along the thread are 0
 //!         steps      first differences along the thread are 0
@@ -53,13 +53,6 @@ pub const PRESS: f32 = 0.6;
 /// The weight of first differences of half widths and half heights along a thread, in radii. With
 /// 0, a 2/2 twill does not come to rest (`cloths_of_the_mills_come_to_rest`).
 pub const SMOOTH: f32 = 3.0;
-
-/// The ratio of width to thickness that a thread tends to.
-pub const ASPECT: f32 = 1.4;
-/// The weight of the difference from [`ASPECT`]. 0.5, 1.5, 3 and 6 were tried. The larger it is,
-/// the nearer the crimp of poplin and sheeting comes to published values. With 3, denim folds
-/// (`cloths_of_the_mills_come_to_rest` of texere-fabric).
-pub const SHAPE: f32 = 1.5;
 
 /// The weight of area that a section has lost.
 pub const AREA_LOSS: f32 = 6.0;
@@ -248,10 +241,10 @@ impl Here<'_> {
     /// Adds the thread's own terms: shape, area, least area, and press.
     fn own(&self, block: &mut CrossingBlock) {
         let (lie, row) = (self.thread(self.site), self.row);
-        let Row { radius, least_area, .. } = *self.thread_row();
+        let Row { radius, least_area, aspect, shape, .. } = *self.thread_row();
         let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
-        let aspect = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -ASPECT / radius)];
-        block.add(SHAPE, 1.0, wide - ASPECT * thick, aspect);
+        let slopes = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -aspect / radius)];
+        block.add(shape, 1.0, wide - aspect * thick, slopes);
         let gain = wide * thick - self.pass.area;
         // Near its full area a section grows no faster than a section above it shrinks. Otherwise
         // it would grow beyond its area in one pass, and shrink back in the next, without end.

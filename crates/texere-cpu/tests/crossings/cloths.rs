@@ -30,13 +30,7 @@ fn cloth(
     up: impl Fn(usize, usize) -> bool,
     (crimp, area, grams): ([f64; 2], [f64; 2], Option<f64>),
 ) -> Cloth {
-    let threads = [0, 1].map(|set| CrossingThread {
-        pitch: pitch[set] as f32,
-        diameter: diameter(tex[set]) as f32,
-        stiffness: 1.0,
-        least_area: 0.75,
-        level: 0,
-    });
+    let threads = [0, 1].map(|set: usize| CrossingThread::new(pitch[set] as f32, diameter(tex[set]) as f32));
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
     let problem = Crossings::new(ups, vec![threads[0]; ends], vec![threads[1]; picks]);
     Cloth { name, problem, tex, crimp, area, grams }

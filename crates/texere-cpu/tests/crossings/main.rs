@@ -43,8 +43,9 @@ fn uneven(ends: usize, picks: usize, repeats: bool) -> Crossings {
             pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
             diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
             stiffness: 1.0 + 0.5 * chance(&mut seed),
-            least_area: 0.75,
-            level: 0,
+            firmness: 1.0 + 0.5 * chance(&mut seed),
+            flatness: 1.0 + 0.3 * chance(&mut seed),
+            ..CrossingThread::new(0.0, 0.0)
         };
         (0..count).map(thread).collect()
     };
@@ -99,8 +100,8 @@ fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32
             pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
             diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
             stiffness: 1.0 + 0.5 * chance(&mut seed),
-            least_area: 0.75,
             level: number as u32 % levels,
+            ..CrossingThread::new(0.0, 0.0)
         };
         (0..count).map(thread).collect()
     };
@@ -176,33 +177,30 @@ fn energy_goes_down_while_penalties_stay() {
 #[test]
 fn balanced_plain_weave_is_alike_both_ways() {
     for pitch in [0.36, 0.4, 0.5] {
-        let thread = CrossingThread { pitch, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+        let thread = CrossingThread::new(pitch, 0.2);
         let problem = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);
         assert!(rest.at_rest, "{rest:?}");
         let [up, down] = [crossings[0], crossings[1]];
         // The cloth looks the same after it is turned over and then turned by a right angle. Half a
-        // repeat further on it is upside down.
+        // repeat further on it is upside down. The weft is tauter by 0.4 %.
         for (one, other, sign) in [
             (up.warp, up.weft, -1.0),
             (up.warp, down.weft, 1.0),
             (up.warp, down.warp, -1.0),
             (up.warp, crossings[3].warp, 1.0),
         ] {
-            assert!((one.height - sign * other.height).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
-            assert!((one.half_width - other.half_width).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
-            assert!((one.half_height - other.half_height).abs() < 2e-4, "{pitch}: {one:?}, {other:?}");
-            assert!(one.shift.abs() < 2e-4, "{pitch}: {one:?}");
+            assert!((one.height - sign * other.height).abs() < 1e-3, "{pitch}: {one:?}, {other:?}");
+            assert!((one.half_width - other.half_width).abs() < 1e-3, "{pitch}: {one:?}, {other:?}");
+            assert!((one.half_height - other.half_height).abs() < 1e-3, "{pitch}: {one:?}, {other:?}");
+            assert!(one.shift.abs() < 1e-3, "{pitch}: {one:?}");
         }
     }
 }
 
 #[test]
 fn far_from_its_edges_a_piece_rests_as_a_repeat() {
-    let (warp, weft) = (
-        CrossingThread { pitch: 0.2, diameter: 0.15, stiffness: 1.0, least_area: 0.75, level: 0 },
-        CrossingThread { pitch: 0.3, diameter: 0.15, stiffness: 1.0, least_area: 0.75, level: 0 },
-    );
+    let (warp, weft) = (CrossingThread::new(0.2, 0.15), CrossingThread::new(0.3, 0.15));
     let piece = |ends: usize, picks: usize| {
         let ups = (0..ends * picks).map(|number| (number % ends + number / ends).is_multiple_of(2));
         Crossings::new(ups.collect(), vec![warp; ends], vec![weft; picks])
@@ -235,8 +233,7 @@ fn mirrored_cloth_rests_mirrored() {
             let (pick, end) = (number / ends, number % ends);
             up(pick, if mirrored { ends - 1 - end } else { end })
         });
-        let thread =
-            CrossingThread { pitch: 0.4, diameter: 0.25, stiffness: 1.0, least_area: 0.75, level: 0 };
+        let thread = CrossingThread::new(0.4, 0.25);
         Crossings::new(ups.collect(), vec![thread; ends], vec![thread; picks]).repeats(true, false).passes(30)
     };
     let one = rest(&SerialBackend::new(), &problem(false)).1;
@@ -297,7 +294,7 @@ fn a_passage_takes_the_best_slope() {
 
 #[test]
 fn what_is_wrong_is_named() {
-    let thread = CrossingThread { pitch: 0.4, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+    let thread = CrossingThread::new(0.4, 0.2);
     let plan = |problem: &Crossings| CrossingsPlan::new(problem).map(|_| ());
     let plain = || Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     let few = Crossings::new(vec![true; 2], vec![thread; 2], vec![thread; 1]);
@@ -309,6 +306,8 @@ fn what_is_wrong_is_named() {
             CrossingThread { pitch: wrong, ..thread },
             CrossingThread { diameter: wrong, ..thread },
             CrossingThread { stiffness: wrong, ..thread },
+            CrossingThread { firmness: wrong, ..thread },
+            CrossingThread { flatness: wrong, ..thread },
         ] {
             let problem = Crossings::new(vec![true; 4], vec![thread, of], vec![thread; 2]);
             let found = plan(&problem).unwrap_err();
@@ -329,7 +328,7 @@ fn nothing_flies_apart_whatever_the_sett() {
     // These setts are far denser or more open than any loom's. The result stays finite, and its
     // clearance says how much room is lacking.
     for pitch in [0.06, 0.1, 5.0] {
-        let thread = CrossingThread { pitch, diameter: 0.2, stiffness: 1.0, least_area: 0.75, level: 0 };
+        let thread = CrossingThread::new(pitch, 0.2);
         let problem =
             Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]).passes(200);
         let (_, crossings, rest) = rest(&SerialBackend::new(), &problem);

@@ -2,8 +2,8 @@
 //! that sum.
 
 use texere_core::crossings::{
-    AREA_GAIN, AREA_LOSS, ASPECT, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, NEAR, PRESS,
-    SHAPE, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER, Set, Site, TENSION, TOUCH,
+    AREA_GAIN, AREA_LOSS, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, NEAR, PRESS,
+    SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER, Set, Site, TENSION, TOUCH,
 };
 
 use crate::chance;
@@ -129,7 +129,7 @@ impl Sum<'_> {
         let gain = wide * thick - f64::from(self.pass.area);
         let least = f64::from(row.least_area * self.pass.area + MARGIN);
         let lacking = (wide * thick - least).min(0.0);
-        let mut sum = f64::from(SHAPE) * (wide - f64::from(ASPECT) * thick).powi(2)
+        let mut sum = f64::from(row.shape) * (wide - f64::from(row.aspect) * thick).powi(2)
             + f64::from(if gain < 0.0 { AREA_LOSS } else { AREA_GAIN }) * gain * gain
             + f64::from(SOLID * self.pass.penalty) * lacking * lacking
             + f64::from(PRESS * plan.press()) * d * d * here[1].powi(2);

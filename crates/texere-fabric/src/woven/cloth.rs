@@ -3,7 +3,8 @@
 use texere_core::{COORDINATE_LIMIT, Material, Origin, RADIUS_MAX, RADIUS_MIN, Section, Yarn};
 
 use super::thread::{
-    FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX, STIFFNESS_MIN, Thread, middles,
+    FIRMNESS_MAX, FIRMNESS_MIN, FLATNESS_MAX, FLATNESS_MIN, SPACING_MAX, SPACING_MIN, STIFFNESS_MAX,
+    STIFFNESS_MIN, Thread, middles,
 };
 use super::{BySet, Crimp, Drawdown, Shape};
 use crate::{FabricError, ThreadError, WovenError, yarn_check};
@@ -55,7 +56,7 @@ impl Woven {
     /// **Errors**: [`FabricError`] for a number of threads other than the drawdown's, more control
     /// points than 2³², spacings outside \[[`SPACING_MIN`], [`SPACING_MAX`]\], radii, half widths
     /// or half heights outside \[[`RADIUS_MIN`], [`RADIUS_MAX`]\], a flatness outside \[0.1, 10\],
-    /// a stiffness outside \[0.01, 100\], a least area outside \[0, 1\], twists beyond
+    /// a stiffness or firmness outside \[0.01, 100\], a least area outside \[0, 1\], twists beyond
     /// [`TWIST_LIMIT`](texere_core::TWIST_LIMIT), unknown materials and sections, sections whose
     /// numbers are not valid, and cloth wider or longer than [`COORDINATE_LIMIT`].
     pub fn new(
@@ -143,6 +144,15 @@ impl Woven {
                     stiffness: each.stiffness,
                     low: STIFFNESS_MIN,
                     high: STIFFNESS_MAX,
+                }
+                .into());
+            }
+            if !(FIRMNESS_MIN..=FIRMNESS_MAX).contains(&each.firmness) {
+                return Err(WovenError::Firmness {
+                    thread,
+                    firmness: each.firmness,
+                    low: FIRMNESS_MIN,
+                    high: FIRMNESS_MAX,
                 }
                 .into());
             }

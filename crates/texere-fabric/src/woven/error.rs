@@ -191,6 +191,18 @@ pub enum WovenError {
         /// The largest stiffness allowed.
         high: f32,
     },
+    /// A firmness outside its limits, or not a number.
+    #[error("{thread} has a firmness of {firmness}, outside {low} to {high}")]
+    Firmness {
+        /// The thread.
+        thread: Origin,
+        /// The firmness of the thread's section, as a multiple of that of cotton.
+        firmness: f32,
+        /// The least firmness allowed.
+        low: f32,
+        /// The largest firmness allowed.
+        high: f32,
+    },
     /// A least area outside \[0, 1\], or not a number.
     #[error("{thread} has a least area of {least_area} of its section, outside 0 to 1")]
     LeastArea {

@@ -22,6 +22,12 @@ pub(super) const STIFFNESS_MIN: f32 = 0.01;
 /// The largest stiffness of a thread, as a multiple of that of cotton.
 pub(super) const STIFFNESS_MAX: f32 = 100.0;
 
+/// The least firmness of a thread's section, as a multiple of that of cotton.
+pub(super) const FIRMNESS_MIN: f32 = 0.01;
+
+/// The largest firmness of a thread's section, as a multiple of that of cotton.
+pub(super) const FIRMNESS_MAX: f32 = 100.0;
+
 /// One end or one pick: its yarn, and the width of its column of the cloth.
 ///
 /// ```
@@ -38,11 +44,16 @@ pub struct Thread {
     pub radius_mm: f32,
     /// Width over height in the cloth, from 0.1 to 10; 1 for a round thread. The thread keeps the
     /// area of the round yarn. Its section stays inside the flattened outline, also where it turns
-    /// with the twist.
+    /// with the twist. When the cloth comes to rest, pressure makes the thread flatter still.
     pub flatness: f32,
     /// Stiffness against bending when the cloth comes to rest, from 0.01 to 100; 1 for a cotton
     /// yarn of the same diameter.
     pub stiffness: f32,
+    /// How firmly the section keeps its shape when the cloth comes to rest, from 0.01 to 100; 1 for
+    /// a cotton yarn of ordinary twist. Hard twist makes a yarn firmer, and its section stays
+    /// rounder; filament without twist spreads flat
+    /// ([`firmness_from_twist`](crate::firmness_from_twist)).
+    pub firmness: f32,
     /// The least area that the yarn's section keeps when the cloth comes to rest, as a share of the
     /// area of the round yarn, from 0 to 1: fibres can't be packed more closely
     /// ([`Fibre::least_area`](crate::Fibre::least_area)).
@@ -65,6 +76,7 @@ impl Thread {
             radius_mm,
             flatness: 1.0,
             stiffness: 1.0,
+            firmness: 1.0,
             least_area: COTTON_LEAST_AREA,
             material: 0,
             section: 0,

@@ -158,6 +158,7 @@ impl Keys {
                 yarn(thread, &[&["flatness"], THICKNESS].concat()).or_else(|| self.thickness(thread))
             }
             Subject::Stiffness(thread) => yarn(thread, &["stiffness"]),
+            Subject::Firmness(thread) => yarn(thread, &["firmness", "twist_per_m"]),
             Subject::LeastArea(thread) => yarn(thread, &["least_area", "packing", "fibre"]),
             Subject::Twist(thread) => yarn(thread, &["twist_per_m"]),
             Subject::Color(thread) => yarn(thread, &["color"]),

@@ -42,12 +42,12 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
 /// A thread's sizes, twist and hairiness, its section, colour and tex. They are looked up, because
 /// the tables of two cloths may be in different order. The spacing and the material's name are not
 /// among them.
-fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 6], &'a Section, [u8; 3], Option<f32>) {
-    let Thread { radius_mm, flatness, stiffness, least_area, twist, .. } = *thread;
+fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 7], &'a Section, [u8; 3], Option<f32>) {
+    let Thread { radius_mm, flatness, stiffness, firmness, least_area, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
     let section = &cloth.sections()[thread.section as usize];
     (
-        [radius_mm, flatness, stiffness, least_area, twist, material.hairiness].map(f32::to_bits),
+        [radius_mm, flatness, stiffness, firmness, least_area, twist, material.hairiness].map(f32::to_bits),
         section,
         material.srgb,
         material.tex,
@@ -121,6 +121,7 @@ pub(crate) fn check_wif(given: &Design) {
         ("yarns.section", any(&|each| *thread(cloth, each).1 != Section::Circle)),
         ("yarns.flatness", any(&|each| each.flatness != 1.0)),
         ("yarns.stiffness", any(&|each| each.stiffness != 1.0)),
+        ("yarns.firmness", any(&|each| each.firmness != 1.0)),
         ("yarns.least_area", any(&|each| each.least_area != COTTON_LEAST_AREA)),
         ("yarns.twist_per_m", any(&|each| each.twist != 0.0)),
         ("yarns.hairiness", any(&|each| cloth.materials()[each.material as usize].hairiness != 0.0)),

@@ -6,7 +6,7 @@ use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::{
     BySet, COTTON_LEAST_AREA, Crimp, Draft, Drawdown, Finish, Relief, Shape, Shedding, Stretch, Structure,
-    Thread, Woven, WovenDesign,
+    Thread, Woven, WovenDesign, firmness_from_twist,
 };
 use texere_formats::Design;
 
@@ -64,10 +64,20 @@ fn run() -> impl Strategy<Value = (Thread, usize)> {
     let one = || prop_oneof![Just(1.0_f32), numbers(0.11, 9.9)];
     let twist = prop_oneof![Just(0.0_f32), -600.0_f32..600.0, Just(500.0 * std::f32::consts::TAU / 1000.0)];
     let least_area = prop_oneof![Just(COTTON_LEAST_AREA), Just(0.0), Just(1.0), 0.0_f32..1.0];
+    let firmness = prop_oneof![Just(None), numbers(0.01, 100.0).prop_map(Some)];
     let kinds = (0_u32..4, 0_u32..3, 1_usize..5);
-    (spacing, numbers(0.0006, 400.0), one(), one(), (least_area, twist), kinds).prop_map(
-        |(spacing_mm, radius_mm, flatness, stiffness, (least_area, twist), (material, section, times))| {
-            let sizes = Thread { flatness, stiffness, least_area, ..Thread::new(spacing_mm, radius_mm) };
+    (spacing, numbers(0.0006, 400.0), one(), one(), (least_area, firmness, twist), kinds).prop_map(
+        |(
+            spacing_mm,
+            radius_mm,
+            flatness,
+            stiffness,
+            (least_area, firmness, twist),
+            (material, section, times),
+        )| {
+            let firmness = firmness.unwrap_or_else(|| firmness_from_twist(twist, radius_mm));
+            let sizes =
+                Thread { flatness, stiffness, firmness, least_area, ..Thread::new(spacing_mm, radius_mm) };
             (Thread { material, section, twist, ..sizes }, times)
         },
     )

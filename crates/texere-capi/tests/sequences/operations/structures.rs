@@ -58,10 +58,12 @@ fn thread(caller: &mut Caller<'_>) -> texere_thread {
         diameter_mm: caller.random.number(0.2),
         flatness: caller.random.pick(&[0.0, 1.0, 2.0]),
         stiffness: caller.random.pick(&[0.0, 1.0, 3.0]),
+        firmness: caller.random.pick(&[0.0, 0.1, 10.0]),
         twist: 0.0,
         material: caller.random.pick(&[0, 0, 0, 0, 0, 0, 0, 0, 0, 1]),
         section: 0,
         least_area: caller.random.pick(&[0.0, 0.6, 1.0]),
+        reserved: 0,
     }
 }
 

@@ -50,6 +50,8 @@ impl Problem {
                     pitch: gaps[number % threads.len()] as f32,
                     diameter: 2.0 * threads[number % threads.len()].radius_mm * (width * height).sqrt(),
                     stiffness: threads[number % threads.len()].stiffness,
+                    firmness: threads[number % threads.len()].firmness,
+                    flatness: threads[number % threads.len()].flatness,
                     least_area: (RESERVE * threads[number % threads.len()].least_area).min(1.0),
                     level: levels[set][number],
                 }
@@ -139,9 +141,9 @@ fn kinds<T: Hash + Eq>(
 ) -> Vec<usize> {
     let mut known = HashMap::new();
     let kind = |number: usize| {
-        let Thread { spacing_mm, radius_mm, flatness, stiffness, least_area, .. } = threads[number];
+        let Thread { spacing_mm, radius_mm, flatness, stiffness, firmness, least_area, .. } = threads[number];
         let [width, height] = rooms[number];
-        let sizes = [radius_mm, flatness, stiffness, least_area, width, height].map(f32::to_bits);
+        let sizes = [radius_mm, flatness, stiffness, firmness, least_area, width, height].map(f32::to_bits);
         (sizes, (spacing_mm as f32).to_bits(), also(&threads[number]), sides(number))
     };
     (0..threads.len())

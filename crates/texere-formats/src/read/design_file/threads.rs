@@ -27,6 +27,9 @@ const LEAST_AREA: [f64; 2] = [0.0, 1.0];
 /// diameter.
 const STIFFNESS: [f64; 2] = [0.01, 100.0];
 
+/// The least and the greatest firmness of a yarn's section, as a multiple of that of cotton.
+const FIRMNESS: [f64; 2] = [0.01, 100.0];
+
 /// The least and the greatest flatness, width over height: that of yarn that stands on edge, and
 /// that of a ribbon. The limits are `f64`, because 0.1 as an `f32` is a little more than 0.1, and
 /// such a limit would refuse a flatness of 0.1.
@@ -187,6 +190,12 @@ fn yarn(
     let stiffness = number_of("stiffness", &spec.stiffness, STIFFNESS)?.unwrap_or(1.0);
     let twist_per_m = number_of("twist_per_m", &spec.twist_per_m, [-TWIST_PER_M, TWIST_PER_M])?;
     let twist = texere_fabric::twist_from_turns_per_m(twist_per_m.unwrap_or(0.0));
+    let radius_mm = (diameter_mm / 2.0) as f32;
+    let firmness = match (number_of("firmness", &spec.firmness, FIRMNESS)?, twist_per_m) {
+        (Some(firmness), _) => firmness as f32,
+        (None, Some(_)) => texere_fabric::firmness_from_twist(twist, radius_mm),
+        (None, None) => 1.0,
+    };
     let hairiness = number_of("hairiness", &spec.hairiness, HAIRINESS)?;
     let srgb = match &spec.color {
         Some(color) => source.rgb(&field("color"), color)?,
@@ -210,9 +219,10 @@ fn yarn(
     };
     let thread = Thread {
         spacing_mm: 0.0,
-        radius_mm: (diameter_mm / 2.0) as f32,
+        radius_mm,
         flatness: flatness as f32,
         stiffness: stiffness as f32,
+        firmness,
         least_area,
         material: number,
         section: number,

@@ -187,6 +187,7 @@ impl ThreadSet {
             radius_mm: (thickness.map_or(diameter, |thickness| scale * thickness) / 2.0) as f32,
             flatness: 1.0,
             stiffness: 1.0,
+            firmness: 1.0,
             least_area: COTTON_LEAST_AREA,
             material: material.unwrap_or(NO_COLOR),
             section: 0,

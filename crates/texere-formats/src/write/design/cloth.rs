@@ -57,6 +57,7 @@ pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
         (any(&tex), "yarns.tex"),
         (any(&|thread| thread.flatness != 1.0), "yarns.flatness"),
         (any(&|thread| thread.stiffness != 1.0), "yarns.stiffness"),
+        (any(&|thread| thread.firmness != 1.0), "yarns.firmness"),
         (any(&|thread| thread.least_area != COTTON_LEAST_AREA), "yarns.least_area"),
         (any(&section), "yarns.section"),
         (any(&|thread| thread.twist != 0.0), "yarns.twist_per_m"),

@@ -5,7 +5,8 @@ use std::collections::{HashMap, HashSet};
 use texere_core::{Material, Section, SectionPoint};
 use texere_fabric::weft::KnitYarn;
 use texere_fabric::{
-    COTTON_DENSITY, Fibre, PACKING, Thread, Woven, diameter_mm, turns_per_m, twist_from_turns_per_m,
+    COTTON_DENSITY, Fibre, PACKING, Thread, Woven, diameter_mm, firmness_from_twist, turns_per_m,
+    twist_from_turns_per_m,
 };
 
 use super::super::WriteError;
@@ -42,12 +43,17 @@ impl Yarns {
                 radius_mm,
                 flatness,
                 stiffness,
+                firmness,
                 least_area,
                 material,
                 section,
                 twist,
             } = thread(number);
-            ([radius_mm, flatness, stiffness, least_area, twist].map(f32::to_bits), material, section)
+            (
+                [radius_mm, flatness, stiffness, firmness, least_area, twist].map(f32::to_bits),
+                material,
+                section,
+            )
         };
         let kinds = Kinds::new(warp.len() + weft.len(), key);
         Self::new(kinds, warp.len(), thread, cloth.materials(), cloth.sections(), |_| true)
@@ -206,8 +212,14 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
     let [red, green, blue] = material.srgb;
     keys.push(format!("color = \"#{red:02x}{green:02x}{blue:02x}\""));
     keys.extend(section_keys(name, section)?);
-    for (key, value) in [("flatness", thread.flatness), ("stiffness", thread.stiffness)] {
-        if value != 1.0 {
+    let firmness =
+        if thread.twist == 0.0 { 1.0 } else { firmness_from_twist(thread.twist, thread.radius_mm) };
+    for (key, value, unsaid) in [
+        ("flatness", thread.flatness, 1.0),
+        ("stiffness", thread.stiffness, 1.0),
+        ("firmness", thread.firmness, firmness),
+    ] {
+        if value != unsaid {
             keys.push(format!("{key} = {:?}", nearest(value.into(), |read| read as f32 == value).0));
         }
     }

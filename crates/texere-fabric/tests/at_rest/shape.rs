@@ -1,0 +1,129 @@
+//! Sections follow the yarn: its stiffness, its twist, its flatness, and the threads beside it.
+
+use texere_core::{Material, Origin, Section, Yarns};
+use texere_fabric::{
+    COTTON_DENSITY, COTTON_LEAST_AREA, Drawdown, Thread, Verdict, Woven, WovenRest, diameter_mm,
+    firmness_from_twist, twist_from_turns_per_m,
+};
+
+use crate::surfaces::Surfaces;
+use crate::{at_rest, plain};
+
+/// Plain weave of `count` ends and picks, which lie `pitch` mm apart.
+fn woven(warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
+    let drawdown = Drawdown::from_fn(warp.len(), weft.len(), plain).unwrap();
+    Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap()
+}
+
+/// Plain weave of 12 ends and picks of cotton, of `tex` and `per_cm`. `change` changes the threads.
+fn cotton(tex: f64, per_cm: f64, change: impl Fn(&mut Thread)) -> Woven {
+    let mut thread = Thread::new(10.0 / per_cm, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32);
+    change(&mut thread);
+    woven(vec![thread; 12], vec![thread; 12])
+}
+
+/// Width over height of the sections, and their area over that of the round yarn, each as the mean
+/// over all control points of the ends.
+fn shape(cloth: &Woven, yarns: &Yarns) -> [f64; 2] {
+    let ends = cloth.warp().len();
+    let radius = f64::from(cloth.warp()[0].radius_mm);
+    let points: Vec<[f64; 2]> = (0..ends)
+        .flat_map(|end| yarns.yarn_points(end).unwrap())
+        .map(|at| [at.half_width(), at.half_height()].map(f64::from))
+        .collect();
+    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    [mean(&|[wide, high]| wide / high), mean(&|[wide, high]| wide * high / (radius * radius))]
+}
+
+/// The rest of a cloth that comes to rest.
+fn rested(cloth: &Woven) -> WovenRest {
+    let rest = at_rest(cloth);
+    assert_eq!(rest.verdict(), Verdict::AtRest, "{:?}", rest.crossings);
+    rest
+}
+
+/// A stiffer yarn resists flattening as it resists bending. Threads bend less by flattening, so
+/// where only bends grow with stiffness, stiff yarn becomes ribbon.
+#[test]
+fn stiff_yarn_stays_round() {
+    let mut before: Option<([f64; 2], f64)> = None;
+    for stiffness in [0.1, 1.0, 10.0, 100.0] {
+        let cloth = cotton(30.0, 22.0, |thread| thread.stiffness = stiffness);
+        let rest = rested(&cloth);
+        let ([aspect, area], thickness) =
+            (shape(&cloth, &rest.yarns), Surfaces::new(&rest.yarns).thickness());
+        println!("stiffness {stiffness}: {aspect:.2} : 1, area {area:.3}, {thickness:.3} mm");
+        if let Some(([aspect_before, area_before], thickness_before)) = before {
+            assert!(aspect < aspect_before && thickness > thickness_before, "{stiffness}");
+            assert!(stiffness < 1.0 || area > area_before - 0.03, "{stiffness}: {area}, {area_before}");
+        }
+        before = Some(([aspect, area], thickness));
+    }
+}
+
+/// A taffeta of filament without twist, 190 threads to the square inch, covers all: of such cloth
+/// light comes through nowhere. Sheeting of hard-twisted yarn stays nearly round.
+#[test]
+fn filament_covers_and_hard_twist_stays_round() {
+    let taffeta = |firmness: f32| {
+        let radius_mm = (diameter_mm(7.5, 1.0) / 2.0) as f32;
+        let thread =
+            |per_inch: f64| Thread { stiffness: 0.2, firmness, ..Thread::new(25.4 / per_inch, radius_mm) };
+        woven(vec![thread(113.0); 12], vec![thread(77.0); 12])
+    };
+    // Peirce's cover of both sets together.
+    let cover = |cloth: &Woven| {
+        let [ends, picks] = Surfaces::new(&rested(cloth).yarns).widths();
+        let [ends, picks] = [ends / cloth.warp()[0].spacing_mm, picks / cloth.weft()[0].spacing_mm];
+        ends + picks - ends * picks
+    };
+    let [filament, spun] = [firmness_from_twist(0.0, 0.05), 1.0].map(taffeta).map(|cloth| cover(&cloth));
+    println!("taffeta covers {filament:.3}, of spun yarn {spun:.3}");
+    assert!(filament > 0.97 && spun < 0.85, "{filament}, {spun}");
+
+    let sheeting = |turns: f64| {
+        let cloth = cotton(20.0, 24.0, |thread| {
+            thread.firmness = firmness_from_twist(twist_from_turns_per_m(turns), thread.radius_mm);
+        });
+        shape(&cloth, &rested(&cloth).yarns)[0]
+    };
+    let [soft, ordinary, voile, crepe] = [300.0, 800.0, 1400.0, 3000.0].map(sheeting);
+    println!("sheeting: {soft:.2}, {ordinary:.2}, {voile:.2}, {crepe:.2} : 1");
+    assert!(soft > 2.0 && (1.4..2.0).contains(&ordinary), "{soft}, {ordinary}");
+    assert!(voile < 1.3 && crepe < 1.1 && crepe > 1.0, "{voile}, {crepe}");
+}
+
+/// A yarn that is flat on the bobbin is flatter in the cloth than a round one.
+#[test]
+fn flatness_is_the_shape_that_a_yarn_wants() {
+    let aspect = |flatness: f32| {
+        let cloth = cotton(20.0, 24.0, |thread| thread.flatness = flatness);
+        shape(&cloth, &rested(&cloth).yarns)[0]
+    };
+    let [upright, round, flat] = [0.7, 1.0, 2.0].map(aspect);
+    assert!(upright < 0.9 * round && flat > 1.5 * round, "{upright}, {round}, {flat}");
+}
+
+/// An end of six times the tex keeps its fibres, and the ends beside it lie further away.
+#[test]
+fn neighbours_give_way_to_a_thick_end() {
+    let thread = |tex: f64| Thread::new(10.0 / 38.0, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32);
+    let warp: Vec<_> = (0..12).map(|end| thread(if end == 5 { 60.0 } else { 10.0 })).collect();
+    let cloth = woven(warp, vec![thread(10.0); 12]);
+    let rest = rested(&cloth);
+    let surfaces = Surfaces::new(&rest.yarns);
+    assert!(surfaces.clearance() >= 0.98, "{}", surfaces.clearance());
+    let place = |end: u32| {
+        let yarns = rest.yarns.layout().yarns();
+        let number = yarns.iter().position(|yarn| yarn.origin == Origin::End(end + 1)).unwrap();
+        let points = rest.yarns.yarn_points(number).unwrap();
+        let thick = points.iter().map(|at| at.half_width() * at.half_height());
+        let radius = cloth.warp()[end as usize].radius_mm;
+        let least = thick.fold(f32::INFINITY, f32::min) / (radius * radius);
+        assert!(least >= COTTON_LEAST_AREA - 2e-3, "end {end}: {least}");
+        points.iter().map(|at| f64::from(at.x)).sum::<f64>() / points.len() as f64
+    };
+    let gaps: Vec<f64> = (0..11).map(|end| place(end + 1) - place(end)).collect();
+    println!("{gaps:.3?} mm");
+    assert!(gaps[4] > 1.05 * gaps[1] && gaps[5] > 1.05 * gaps[1], "{gaps:?}");
+}

@@ -57,13 +57,22 @@ void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before
 }
 
 // Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
-// evenness of sections.
-void add_difference(CrossingBlock *block, float4 lie, const Along *other, float gap, float tension, float evenness) {
-    if (other->there) {
-        float taut = tension / gap;
-        float4 weights = (float4)(CROSSINGS_SIDEWAYS_TENSION * taut, CROSSINGS_TENSION * taut, evenness, evenness);
-        add_alone(block, weights, 2.0f, lie - other->lie, 1.0f);
+// evenness of sections. `sign` is -1 for the crossing before, and 1 for the one after. A taut
+// thread that changes sides pulls apart the threads between which it does.
+void add_difference(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, const Along *other, float sign,
+                    float gap, float tension, float evenness) {
+    if (!other->there) {
+        return;
     }
+    float taut = tension / gap;
+    float4 weights = (float4)(CROSSINGS_SIDEWAYS_TENSION * taut, 0.0f, evenness, evenness);
+    add_alone(block, weights, 2.0f, here->lie - other->lie, 1.0f);
+    float to = lie_of(cloth, other->site, 1u - of_set).x;
+    float span = gap + sign * (to - lie_of(cloth, here->site, 1u - of_set).x);
+    float shorter = sqrt(gap / span);
+    float rise = shorter * (here->lie.y - other->lie.y);
+    float4 crossed = (float4)(0.5f * sign * rise / span, 0.0f, 0.0f, 0.0f);
+    add_between(block, CROSSINGS_TENSION * taut, 2.0f, rise, (float2)(shorter, 0.0f), crossed);
 }
 
 // The room between a thread and the threads that it crosses, on the way between two crossings. This
@@ -296,8 +305,8 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     float taut = of_set == WARP ? cloth->params->tension_warp : cloth->params->tension_weft;
     float tension = taut * 4.0f * radius * radius;
     float evenness = CROSSINGS_SMOOTH / (radius * radius);
-    add_difference(block, here.lie, &before, before.gap, tension, evenness);
-    add_difference(block, here.lie, &after, here.gap, tension, evenness);
+    add_difference(cloth, block, of_set, &here, &before, -1.0f, before.gap, tension, evenness);
+    add_difference(cloth, block, of_set, &here, &after, 1.0f, here.gap, tension, evenness);
     add_meeting(cloth, block, of_set, &before, &here, true);
     add_meeting(cloth, block, of_set, &here, &after, false);
     add_neighbours(cloth, block, of_set, &before, &here, &after, -1, thread.before);

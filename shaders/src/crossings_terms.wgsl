@@ -59,13 +59,21 @@ fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Alon
 }
 
 // Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
-// evenness of sections.
-fn add_difference(block: ptr<function, CrossingBlock>, lie: vec4<f32>, other: Along, gap: f32, tension: f32, evenness: f32) {
-    if other.there {
-        let taut = tension / gap;
-        let weights = vec4(CROSSINGS_SIDEWAYS_TENSION * taut, CROSSINGS_TENSION * taut, evenness, evenness);
-        add_alone(block, weights, 2.0, lie - other.lie, 1.0);
+// evenness of sections. `sign` is -1 for the crossing before, and 1 for the one after. A taut
+// thread that changes sides pulls apart the threads between which it does.
+fn add_difference(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, other: Along, sign: f32, gap: f32, tension: f32, evenness: f32) {
+    if !other.there {
+        return;
     }
+    let taut = tension / gap;
+    let weights = vec4(CROSSINGS_SIDEWAYS_TENSION * taut, 0.0, evenness, evenness);
+    add_alone(block, weights, 2.0, here.lie - other.lie, 1.0);
+    let to = lie_of(other.site, 1u - of_set).x;
+    let span = gap + sign * (to - lie_of(here.site, 1u - of_set).x);
+    let shorter = sqrt(gap / span);
+    let rise = shorter * (here.lie.y - other.lie.y);
+    let crossed = vec4(0.5 * sign * rise / span, 0.0, 0.0, 0.0);
+    add_between(block, CROSSINGS_TENSION * taut, 2.0, rise, vec2(shorter, 0.0), crossed);
 }
 
 // The room between a thread and the threads that it crosses, on the way between two crossings. This
@@ -304,8 +312,8 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     add_bend(block, thread, here, after, two_after, 1.0, 4.0);
     let tension = select(cloth.tension_weft, cloth.tension_warp, of_set == WARP) * 4.0 * radius * radius;
     let evenness = CROSSINGS_SMOOTH / (radius * radius);
-    add_difference(block, here.lie, before, before.gap, tension, evenness);
-    add_difference(block, here.lie, after, here.gap, tension, evenness);
+    add_difference(block, of_set, here, before, -1.0, before.gap, tension, evenness);
+    add_difference(block, of_set, here, after, 1.0, here.gap, tension, evenness);
     add_meeting(block, of_set, before, here, true);
     add_meeting(block, of_set, here, after, false);
     add_neighbours(block, of_set, before, here, after, -1, thread.before);

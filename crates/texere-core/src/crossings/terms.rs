@@ -280,7 +280,9 @@ impl Here<'_> {
         }
     }
 
-    /// Adds first differences along the thread: tension, and the evenness of sections.
+    /// Adds first differences along the thread: tension, and the evenness of sections. A taut
+    /// thread that changes sides pulls apart the threads between which it does, so that ends and
+    /// picks that work as one close up.
     fn steps(&self, block: &mut CrossingBlock) {
         let (lie, radius) = (self.thread(self.site), self.thread_row().radius);
         let tension = self.plan.tension(self.set) * 4.0 * radius * radius;
@@ -288,8 +290,14 @@ impl Here<'_> {
         for steps in [-1, 1] {
             let Some(site) = self.along(steps) else { continue };
             let other = self.thread(site);
-            let taut = tension / self.pitch(if steps < 0 { site } else { self.site });
-            block.add(TENSION * taut, 2.0, lie.height - other.height, [(self.row + HEIGHT, 1.0)]);
+            let gap = self.pitch(if steps < 0 { site } else { self.site });
+            let (taut, crossed, sign) = (tension / gap, self.set.other(), steps as f32);
+            let [from, to] = [self.site, site].map(|site| self.crossing(site).thread(crossed).shift);
+            let span = gap + sign * (to - from);
+            let shorter = (gap / span).sqrt();
+            let rise = shorter * (lie.height - other.height);
+            let slopes = [(self.row + HEIGHT, shorter), (crossed.first() + SHIFT, 0.5 * sign * rise / span)];
+            block.add(TENSION * taut, 2.0, rise, slopes);
             block.add(SIDEWAYS_TENSION * taut, 2.0, lie.shift - other.shift, [(self.row + SHIFT, 1.0)]);
             block.add(smooth, 2.0, lie.half_width - other.half_width, [(self.row + WIDTH, 1.0)]);
             block.add(smooth, 2.0, lie.half_height - other.half_height, [(self.row + THICKNESS, 1.0)]);

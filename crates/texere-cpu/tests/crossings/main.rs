@@ -216,9 +216,9 @@ fn far_from_its_edges_a_piece_rests_as_a_repeat() {
         assert!((middle.half_height - repeat.half_height).abs() < 0.02, "{middle:?}, not {repeat:?}");
     }
     // Nothing holds the outermost threads, which give way. From the fourth thread on none gives
-    // way.
+    // way by more than 0.03.
     for end in 3..21 {
-        assert!(open[10 * 24 + end].warp.shift.abs() < 0.02, "end {end}: {:?}", open[10 * 24 + end]);
+        assert!(open[10 * 24 + end].warp.shift.abs() < 0.03, "end {end}: {:?}", open[10 * 24 + end]);
     }
     let outwards = [open[10 * 24].warp.shift, -open[10 * 24 + 23].warp.shift];
     assert!(outwards.iter().all(|shift| *shift < 0.0), "{outwards:?}");

@@ -146,7 +146,9 @@ impl Sum<'_> {
             let taut = f64::from(plan.tension(set)) * d * d / pitch(site);
             let next = self.lie(after, set);
             let step = |of: usize| (here[of] - next[of]).powi(2);
-            sum += taut * (f64::from(TENSION) * step(1) + f64::from(SIDEWAYS_TENSION) * step(0));
+            let [from, to] = [site, after].map(|site| self.lie(site, set.other())[0]);
+            let longer = (pitch(site) + to - from) / pitch(site);
+            sum += taut * (f64::from(TENSION) * step(1) / longer + f64::from(SIDEWAYS_TENSION) * step(0));
             sum += f64::from(SMOOTH) / (radius * radius) * (step(2) + step(3));
         }
         sum

@@ -189,8 +189,9 @@ fn cloths_of_the_mills_come_to_rest() {
         let least = rest.area_least.into_array().map(|area| area as f32);
         assert!(least.iter().all(|&area| area >= COTTON_LEAST_AREA - 1e-3), "{name}: {least:?}");
         assert!(tightest(&rest.yarns) >= 1.0, "{name} folds: {}", tightest(&rest.yarns));
+        // The certificate looks for no contacts above 0.99.
         assert!(
-            (rest.clearance[1] - clearance).abs() < 0.008,
+            (rest.clearance[1] - clearance.min(0.99)).abs() < 0.008,
             "{name}: {} and {clearance}",
             rest.clearance[1]
         );

@@ -3,7 +3,7 @@
 use texere_core::{Material, Origin, Section, Yarns};
 use texere_fabric::{
     COTTON_DENSITY, COTTON_LEAST_AREA, Drawdown, Thread, Verdict, Woven, WovenRest, diameter_mm,
-    firmness_from_twist, twist_from_turns_per_m,
+    firmness_from_twist, tex_from_cotton_count, twist_from_turns_per_m,
 };
 
 use crate::surfaces::Surfaces;
@@ -126,4 +126,43 @@ fn neighbours_give_way_to_a_thick_end() {
     let gaps: Vec<f64> = (0..11).map(|end| place(end + 1) - place(end)).collect();
     println!("{gaps:.3?} mm");
     assert!(gaps[4] > 1.05 * gaps[1] && gaps[5] > 1.05 * gaps[1], "{gaps:?}");
+}
+
+/// Two ends that work as one close up, because the picks are taut where they change sides. So do
+/// the picks of a hopsack.
+#[test]
+fn threads_that_work_as_one_close_up() {
+    let (warp, weft) = (tex_from_cotton_count(40.0), tex_from_cotton_count(20.0));
+    let threads = |tex: f64, pitch: f64, count: usize| {
+        vec![Thread::new(pitch, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32); count]
+    };
+    let hopsack = |end: usize, pick: usize| (end % 4 < 2) == (pick % 4 < 2);
+    let oxford = |end: usize, pick: usize| (end % 4 < 2) == pick.is_multiple_of(2);
+    for (name, up, sets) in [
+        ("oxford", &oxford as &dyn Fn(usize, usize) -> bool, [(warp, 0.254), (weft, 0.508)]),
+        ("hopsack", &hopsack, [(weft, 0.4), (weft, 0.4)]),
+    ] {
+        let [ends, picks] = sets.map(|(tex, pitch)| threads(tex, pitch, 12));
+        let drawdown = Drawdown::from_fn(12, 12, up).unwrap();
+        let look = (vec![Material::default()], vec![Section::Circle]);
+        let cloth = Woven::new(drawdown, ends, picks, look.0, look.1).unwrap();
+        let rest = rested(&cloth);
+        assert!(Surfaces::new(&rest.yarns).clearance() >= 0.98, "{name}");
+        // The places of all threads, and how far pairs of ends are from one another.
+        let place = |number: usize| {
+            let points = rest.yarns.yarn_points(number).unwrap();
+            let along = points.iter().map(|at| if number < 12 { at.x } else { at.y });
+            f64::from(along.sum::<f32>()) / points.len() as f64
+        };
+        let gap = |first: usize| place(first + 1) - place(first);
+        let [pair, apart] = [gap(4), gap(5)];
+        println!("{name}: ends {pair:.3} and {apart:.3} mm apart");
+        assert!(apart > 1.5 * pair && (pair + apart - 2.0 * sets[0].1).abs() < 0.01, "{pair} {apart}");
+        let [pair, apart] = [gap(16), gap(17)];
+        if name == "hopsack" {
+            assert!(apart > 1.5 * pair, "picks {pair} {apart}");
+        } else {
+            assert!((pair - apart).abs() < 0.01, "picks {pair} {apart}");
+        }
+    }
 }

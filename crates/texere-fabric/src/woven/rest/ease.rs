@@ -14,30 +14,28 @@ const MOVED: f64 = 0.1;
 /// thread reaches into it.
 const WIDE: f64 = 1.02;
 
-/// Index of the last stop of a change of sides, at the second crossing.
-const LAST: usize = CHANGE_POINTS + 1;
-
 /// Moves the stops between two crossings up or down where the spline through them would bend more
 /// tightly than the thread is thick. `turns` says whether the thread also changes sides before the
 /// first crossing, and after the second one. If so, the path beyond that crossing is taken as the
 /// mirror image of the path on this side.
-pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
-    let place = |stop: &Stop| DVec2::new(stop.along, stop.z);
+pub(super) fn ease(stops: &mut [Stop], turns: [bool; 2]) {
+    let last = stops.len() - 1;
+    let mut at = [DVec2::ZERO; CHANGE_POINTS + 2];
     for _ in 0..EASINGS {
-        let at = stops.each_ref().map(place);
+        at.iter_mut().zip(&*stops).for_each(|(at, stop)| *at = DVec2::new(stop.along, stop.z));
         // The second differences of the stops.
-        let second: [DVec2; LAST + 1] = std::array::from_fn(|stop| match stop {
-            0 | LAST => DVec2::ZERO,
-            stop => at[stop - 1] - 2.0 * at[stop] + at[stop + 1],
-        });
+        let mut second = [DVec2::ZERO; CHANGE_POINTS + 2];
+        for stop in 1..last {
+            second[stop] = at[stop - 1] - 2.0 * at[stop] + at[stop + 1];
+        }
         let mut eased = false;
         let mut is_tight = |stop: usize, sharpest: f64, speed: f64| {
             let tight = sharpest * stops[stop].halves[1] * WIDE > speed.powi(3);
             eased |= tight;
             tight
         };
-        let mut moves = [0.0; LAST + 1];
-        for stop in 1..LAST {
+        let mut moves = [0.0; CHANGE_POINTS + 2];
+        for stop in 1..last {
             let tangent = (at[stop + 1] - at[stop - 1]) / 2.0;
             // The cross product of the spline's first and second derivatives, on both sides of the
             // stop.
@@ -47,7 +45,7 @@ pub(super) fn ease(stops: &mut [Stop; CHANGE_POINTS + 2], turns: [bool; 2]) {
                 moves[stop] += MOVED * second[stop].y;
             }
         }
-        for (crossing, beside) in [(0, 1), (LAST, LAST - 1)] {
+        for (crossing, beside) in [(0, 1), (last, last - 1)] {
             let away = at[beside] - at[crossing];
             let turning = (away.x * (4.0 * away.y - second[beside].y)).abs();
             if turns[usize::from(crossing > 0)] && is_tight(crossing, turning, away.x.abs()) {

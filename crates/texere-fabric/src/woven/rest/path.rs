@@ -5,10 +5,10 @@ use texere_core::crossings::StraightPassage;
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// Place of a float's control point beside a change of sides, as a share of the way to the next
-/// crossing. With this point the steps of the spline grow slowly, so that the spline does not swing
-/// out.
-const FLOAT_STEP: f64 = 0.3;
+/// Place of a float's control point beside a change of sides, in steps of as many as the change has
+/// from crossing to crossing. With this point the steps of the spline grow slowly, so that the
+/// spline does not swing out.
+const FLOAT_STEP: f64 = 1.8;
 
 /// Number of parts into which each arc, and the straight line between the arcs, is divided.
 const PARTS: usize = 8;
@@ -69,24 +69,25 @@ pub(super) struct Change<'a> {
     turns: [bool; 2],
     /// Length from the first crossing to each point of the line.
     lengths: [f64; LINE],
+    /// Number of steps from control point to control point between the two crossings.
+    steps: usize,
 }
 
 /// Number of points of the line along which lengths are added up. The line has two arcs and a
 /// straight piece between them.
 const LINE: usize = 3 * PARTS + 1;
 
-/// Number of steps from control point to control point between two crossings.
-const STEPS: f64 = (CHANGE_POINTS + 1) as f64;
-
 impl<'a> Change<'a> {
-    pub(super) fn new(one: &'a Station, two: &'a Station, turns: [bool; 2]) -> Self {
+    /// The change of sides with `points` control points between both crossings. `turns` says
+    /// whether the thread changes sides before the first crossing, and after the second one.
+    pub(super) fn new(one: &'a Station, two: &'a Station, turns: [bool; 2], points: usize) -> Self {
         let way = Way::new(one, two);
-        let line = way.line();
+        let line = way.line(turns);
         let mut lengths = [0.0; LINE];
         for (at, pair) in line.windows(2).enumerate() {
             lengths[at + 1] = lengths[at] + (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
         }
-        Self { way, line, turns, lengths }
+        Self { way, line, turns, lengths, steps: points + 1 }
     }
 
     fn whole(&self) -> f64 {
@@ -96,9 +97,10 @@ impl<'a> Change<'a> {
     /// All points between the two crossings, evenly spaced except where the thread would bend too
     /// tightly.
     pub(super) fn points(&self) -> impl Iterator<Item = Stop> {
-        let mut stops = std::array::from_fn(|point| self.at(self.whole() * point as f64 / STEPS));
-        ease(&mut stops, self.turns);
-        stops.into_iter().skip(1).take(CHANGE_POINTS)
+        let step = self.whole() / self.steps as f64;
+        let mut stops: [Stop; CHANGE_POINTS + 2] = std::array::from_fn(|point| self.at(step * point as f64));
+        ease(&mut stops[..=self.steps], self.turns);
+        stops.into_iter().take(self.steps).skip(1)
     }
 
     /// The path of the thread at `along`.
@@ -121,7 +123,7 @@ impl<'a> Change<'a> {
         let [[from, _], [to, _]] = [self.line[part - 1], self.line[part]];
         let share = ((x - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let length = self.lengths[part - 1] + share * (self.lengths[part] - self.lengths[part - 1]);
-        let steps = (STEPS * length / self.whole()).round().max(1.0) as usize;
+        let steps = (self.steps as f64 * length / self.whole()).round().max(1.0) as usize;
         (1..=steps).map(move |step| {
             let stop = self.at(length * step as f64 / steps as f64);
             if step < steps {
@@ -157,12 +159,18 @@ impl<'a> Change<'a> {
 
 /// The points between two crossings of a thread that lies on the same side of both and changes
 /// sides before the first or after the second, as `changes` says.
-pub(super) fn float(one: &Station, two: &Station, changes: [bool; 2]) -> impl Iterator<Item = Stop> {
+pub(super) fn float(
+    one: &Station,
+    two: &Station,
+    changes: [bool; 2],
+    points: usize,
+) -> impl Iterator<Item = Stop> {
+    let step = FLOAT_STEP / (points + 1) as f64;
     let at = |share: f64, station: &Station| {
         let along = one.at + share * (two.at - one.at);
         Stop { crossing: Some(station.number), ..one.stop().towards(&two.stop(), along) }
     };
-    let points = [(FLOAT_STEP, one), (1.0 - FLOAT_STEP, two)].map(|(share, station)| at(share, station));
+    let points = [(step, one), (1.0 - step, two)].map(|(share, station)| at(share, station));
     points.into_iter().zip(changes).filter_map(|(point, changes)| changes.then_some(point))
 }
 
@@ -213,8 +221,9 @@ impl<'a> Way<'a> {
     }
 
     /// The points of the arc round the first crossed thread, of the straight line, and of the arc
-    /// round the second one.
-    fn line(&self) -> [[f64; 2]; LINE] {
+    /// round the second one. `turns` says whether the thread changes sides before the first
+    /// crossing, and after the second one.
+    fn line(&self, turns: [bool; 2]) -> [[f64; 2]; LINE] {
         let first = |part: usize| self.arc(self.stations[0], 1.0, part as f64 / PARTS as f64);
         // The second arc is computed like the first one, and turned by half a turn.
         let second = |part: usize| {
@@ -234,7 +243,10 @@ impl<'a> Way<'a> {
             };
             let lift = |end: usize| {
                 let gone = [x, self.across - x][end] / half;
-                lifts[end] * (ends[end] * (1.0 - angles[end]) + (1.0 - ends[end]) * fading(gone))
+                // A thread that turns beyond the crossing, too, is level there. Otherwise it would
+                // have an edge: the picks of denim would bend at 0.9 of their radius.
+                let turned = if turns[end] { fading(angles[end]) } else { 1.0 - angles[end] };
+                lifts[end] * (ends[end] * turned + (1.0 - ends[end]) * fading(gone))
             };
             let (s, c) = (self.slope * angles[0].min(angles[1])).sin_cos();
             let away = lift(0) - lift(1);

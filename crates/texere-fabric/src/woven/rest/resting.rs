@@ -12,7 +12,7 @@ use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 use super::path::Station;
 use super::problem::{Problem, gaps};
 use super::span::Span;
-use super::stop::{CHANGE_POINTS, Stop};
+use super::stop::{CHANGE_POINTS, LAYERED_POINTS, Stop};
 use super::turn::{TURN_POINTS, Turn};
 use crate::woven::selvedge;
 use crate::woven::yarns::{Pass, Pen};
@@ -34,6 +34,8 @@ pub(super) struct RestingRepeat {
     /// The layer of each thread of the repeat, 0 for the lowest. All are 0 if warp and weft have
     /// different numbers of levels.
     layers: [Vec<u32>; 2],
+    /// Number of control points between two crossings if a thread changes sides between them.
+    change_points: usize,
     /// Tension of the yarns' splines.
     tension: f32,
 }
@@ -67,13 +69,15 @@ impl RestingRepeat {
             .iter()
             .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
         let [warp, weft] = &problem.levels;
+        let is_single = warp.iter().chain(weft).all(|&level| level == 0);
+        let change_points = if is_single { CHANGE_POINTS } else { LAYERED_POINTS };
         let layers = if warp.iter().max() == weft.iter().max() {
             problem.levels
         } else {
             problem.repeat.map(|threads| vec![0; threads])
         };
         let (repeat, rooms, drawn) = (problem.repeat, problem.rooms, drawn.collect());
-        Self { repeat, drawn, rooms, least, layers, rest, tension }
+        Self { repeat, drawn, rooms, least, layers, change_points, rest, tension }
     }
 
     /// Ends and picks of the repeat.
@@ -277,7 +281,7 @@ impl<'a> Placing<'a> {
             before |= turns[0] && step == 0;
             after |= turns[1] && step + 4 == met.len();
             points += if changes {
-                CHANGE_POINTS
+                self.resting.change_points
             } else {
                 stops[1] - stops[0] - 1 + usize::from(before) + usize::from(after)
             };
@@ -364,7 +368,7 @@ impl<'a> Placing<'a> {
         if from > to {
             passed.reverse();
         }
-        Span::new(stations, passed)
+        Span::new(stations, passed, self.resting.change_points)
     }
 
     /// The turn from the pick before to `pick`.

@@ -13,19 +13,21 @@ pub(super) struct Span {
     /// The crossings between the two, which the thread passes without a bend, and how far it is
     /// pushed up at each, mm. If the thread stays on its side, its heights are those of its way.
     passed: Vec<(Station, f64)>,
+    /// Number of control points of a change of sides.
+    points: usize,
 }
 
 impl Span {
     /// The way between two crossings. `passed` are the crossings between them, in order, and how
-    /// far the thread is pushed up at each, mm.
-    pub(super) fn new([one, two]: [Station; 2], mut passed: Vec<(Station, f64)>) -> Self {
+    /// far the thread is pushed up at each, mm. A change of sides has `points` control points.
+    pub(super) fn new([one, two]: [Station; 2], mut passed: Vec<(Station, f64)>, points: usize) -> Self {
         if one.side == two.side {
             for (station, by) in &mut passed {
                 let share = (station.at - one.at) / (two.at - one.at);
                 station.z = one.z + share * (two.z - one.z) + *by;
             }
         }
-        Self { one, two, passed }
+        Self { one, two, passed, points }
     }
 
     /// The pairs of neighbouring stations of a thread that stays on its side.
@@ -45,16 +47,23 @@ impl Span {
         pairs.find(|[_, to]| !self.is_before(to.at, along)).unwrap_or([&self.one, &self.two])
     }
 
+    /// The change of sides between the two crossings. `turns` says whether the thread also changes
+    /// sides before the first, and after the second.
+    fn change(&self, turns: [bool; 2]) -> Change<'_> {
+        Change::new(&self.one, &self.two, turns, self.points)
+    }
+
     /// Calls `stop` with the control points between the two crossings. `changes` says whether the
     /// thread changes sides before the first and after the second.
     pub(super) fn stops(&self, changes: [bool; 2], stop: &mut impl FnMut(Stop)) {
         if self.one.side != self.two.side {
-            Change::new(&self.one, &self.two, changes).points().for_each(|at| stop(self.push(at)));
+            self.change(changes).points().for_each(|at| stop(self.push(at)));
             return;
         }
         let last = self.passed.len();
         for (number, [from, to]) in self.pairs().enumerate() {
-            float(from, to, [changes[0] && number == 0, changes[1] && number == last]).for_each(&mut *stop);
+            let beside = [changes[0] && number == 0, changes[1] && number == last];
+            float(from, to, beside, self.points).for_each(&mut *stop);
             if number < last {
                 stop(to.stop());
             }
@@ -66,9 +75,7 @@ impl Span {
     /// crossing.
     pub(super) fn until(&self, edge: f64, changes: bool, stop: &mut impl FnMut(Stop)) {
         if self.one.side != self.two.side {
-            Change::new(&self.one, &self.two, [changes, false])
-                .until(edge)
-                .for_each(|at| stop(self.push(at)));
+            self.change([changes, false]).until(edge).for_each(|at| stop(self.push(at)));
             return;
         }
         self.stops([changes, false], &mut |at| {
@@ -83,7 +90,7 @@ impl Span {
     /// The path of the thread at `along`.
     pub(super) fn passing(&self, along: f64) -> Passing {
         if self.one.side != self.two.side {
-            let way = Change::new(&self.one, &self.two, [false; 2]).passing(along);
+            let way = self.change([false; 2]).passing(along);
             return Passing { z: way.z + self.pushed_at(along), ..way };
         }
         let pair = self.pair_at(along);

@@ -71,7 +71,7 @@ impl WovenDesign {
     /// but for falling apart. `diagnosis` is that of the cloth at rest. Each change is tried with a
     /// piece of the cloth, which comes to rest on `backend` as `finish` says: with two or three
     /// repeats or, if these are large, with the threads around the worst places. If the piece does
-    /// not have the faults of the cloth before it is changed, there are no cures. `tension` is the
+    /// not lack room, as the cloth does before it is changed, there are no cures. `tension` is the
     /// tension of the yarns' splines.
     ///
     /// There are no cures of a [relieved](Self::is_relieved) design, because relief would change

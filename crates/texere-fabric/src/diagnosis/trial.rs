@@ -233,10 +233,20 @@ impl Trial<'_> {
         better.then_some(outcome)
     }
 
-    /// Whether the samples have all kinds of fault of the cloth before it is changed. If they have
-    /// not, they can't show whether a change cures.
+    /// Whether the samples have the faults of the cloth before it is changed. If they have not, they
+    /// can't show whether a change cures. Where threads lack room, a small piece may fold where a
+    /// large one is pierced, so that these faults count as one.
     pub(super) fn shows(&self, on: &mut On<'_>) -> bool {
-        self.outcome(self.cloth, on).is_some_and(|outcome| outcome.leaves == self.faults.kinds())
+        use ClothFault::{Crowded, Folds, InsideOut, Pierces};
+        let lacks_room = |fault: &&ClothFault| matches!(fault, Crowded | Pierces | Folds | InsideOut);
+        let known = self.faults.kinds();
+        self.outcome(self.cloth, on).is_some_and(|outcome| {
+            let found = &outcome.leaves;
+            let others = known.iter().filter(|fault| !lacks_room(fault));
+            others.eq(found.iter().filter(|fault| !lacks_room(fault)))
+                && known.iter().any(|fault| lacks_room(&fault))
+                    == found.iter().any(|fault| lacks_room(&fault))
+        })
     }
 
     /// The measures of `changed`. Jams are looked for in the whole cloth, other faults in the

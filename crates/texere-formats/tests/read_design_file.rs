@@ -537,7 +537,7 @@ fn bytes_that_are_not_text_are_refused() {
 #[test]
 fn firmness_follows_twist() {
     let firmness = |lines: &str| {
-        let text = DENIM.replace("tex = 84.0", lines).replace("twist_per_m = -500.0\n", "");
+        let text = DENIM.replace("twist_per_m = -500.0\n", "").replace("tex = 84.0", lines);
         cloth(&text).warp()[0].firmness
     };
     assert_eq!(firmness("tex = 84.0"), 1.0);

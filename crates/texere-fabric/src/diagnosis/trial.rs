@@ -233,9 +233,9 @@ impl Trial<'_> {
         better.then_some(outcome)
     }
 
-    /// Whether the samples have the faults of the cloth before it is changed. If they have not, they
-    /// can't show whether a change cures. Where threads lack room, a small piece may fold where a
-    /// large one is pierced, so that these faults count as one.
+    /// Whether the samples have the faults of the cloth before it is changed. If they have not,
+    /// they can't show whether a change cures. Where threads lack room, a small piece may fold
+    /// where a large one is pierced, so that these faults count as one.
     pub(super) fn shows(&self, on: &mut On<'_>) -> bool {
         use ClothFault::{Crowded, Folds, InsideOut, Pierces};
         let lacks_room = |fault: &&ClothFault| matches!(fault, Crowded | Pierces | Folds | InsideOut);

@@ -1,5 +1,6 @@
 //! Trials of changes of a cloth: pieces of it are changed and measured again.
 
+use std::collections::HashSet;
 use std::ops::{ControlFlow, Range};
 
 use texere_core::{Backend, Origin, Section, Settings};
@@ -238,15 +239,13 @@ impl Trial<'_> {
     /// where a large one is pierced, so that these faults count as one.
     pub(super) fn shows(&self, on: &mut On<'_>) -> bool {
         use ClothFault::{Crowded, Folds, InsideOut, Pierces};
-        let lacks_room = |fault: &&ClothFault| matches!(fault, Crowded | Pierces | Folds | InsideOut);
-        let known = self.faults.kinds();
-        self.outcome(self.cloth, on).is_some_and(|outcome| {
-            let found = &outcome.leaves;
-            let others = known.iter().filter(|fault| !lacks_room(fault));
-            others.eq(found.iter().filter(|fault| !lacks_room(fault)))
-                && known.iter().any(|fault| lacks_room(&fault))
-                    == found.iter().any(|fault| lacks_room(&fault))
-        })
+        let as_one = |fault: ClothFault| match fault {
+            Crowded | Folds | InsideOut => Pierces,
+            other => other,
+        };
+        let kinds = |all: Vec<ClothFault>| all.into_iter().map(as_one).collect::<HashSet<_>>();
+        let known = kinds(self.faults.kinds());
+        self.outcome(self.cloth, on).is_some_and(|outcome| kinds(outcome.leaves) == known)
     }
 
     /// The measures of `changed`. Jams are looked for in the whole cloth, other faults in the

@@ -46,9 +46,9 @@ fn crimp_and_thickness_follow_the_sett() {
                 assert!(least >= f64::from(COTTON_LEAST_AREA) - 1e-3, "{name} {sett}: {least}");
             }
             let jammed = rest.verdict() == Verdict::Jammed;
+            assert!(jammed || rest.verdict() == Verdict::AtRest, "{name} {sett}");
             // Surfaces are sampled at some setts, because that takes long.
             if !jammed && sett % 10 == 0 {
-                assert_eq!(rest.verdict(), Verdict::AtRest, "{name} {sett}");
                 assert!(surfaces.clearance() >= 0.98 && tightest(&rest.yarns) >= 1.0, "{name} {sett}");
             }
             if let Some((before, was_jammed)) = before {

@@ -6,12 +6,13 @@ use texere_fabric::{
     firmness_from_twist, tex_from_cotton_count, twist_from_turns_per_m,
 };
 
+use crate::solid::least_drawn;
 use crate::surfaces::Surfaces;
 use crate::{at_rest, plain};
 
-/// Plain weave of `count` ends and picks, which lie `pitch` mm apart.
-fn woven(warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
-    let drawdown = Drawdown::from_fn(warp.len(), weft.len(), plain).unwrap();
+/// Cloth of these ends and picks, with the warp on the face where `up` says so.
+fn woven(up: impl FnMut(usize, usize) -> bool, warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
+    let drawdown = Drawdown::from_fn(warp.len(), weft.len(), up).unwrap();
     Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
@@ -19,7 +20,7 @@ fn woven(warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
 fn cotton(tex: f64, per_cm: f64, change: impl Fn(&mut Thread)) -> Woven {
     let mut thread = Thread::new(10.0 / per_cm, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32);
     change(&mut thread);
-    woven(vec![thread; 12], vec![thread; 12])
+    woven(plain, vec![thread; 12], vec![thread; 12])
 }
 
 /// Width over height of the sections, and their area over that of the round yarn, each as the mean
@@ -69,7 +70,7 @@ fn filament_covers_and_hard_twist_stays_round() {
         let radius_mm = (diameter_mm(7.5, 1.0) / 2.0) as f32;
         let thread =
             |per_inch: f64| Thread { stiffness: 0.2, firmness, ..Thread::new(25.4 / per_inch, radius_mm) };
-        woven(vec![thread(113.0); 12], vec![thread(77.0); 12])
+        woven(plain, vec![thread(113.0); 12], vec![thread(77.0); 12])
     };
     // Peirce's cover of both sets together.
     let cover = |cloth: &Woven| {
@@ -109,18 +110,16 @@ fn flatness_is_the_shape_that_a_yarn_wants() {
 fn neighbours_give_way_to_a_thick_end() {
     let thread = |tex: f64| Thread::new(10.0 / 38.0, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32);
     let warp: Vec<_> = (0..12).map(|end| thread(if end == 5 { 60.0 } else { 10.0 })).collect();
-    let cloth = woven(warp, vec![thread(10.0); 12]);
+    let cloth = woven(plain, warp, vec![thread(10.0); 12]);
     let rest = rested(&cloth);
     let surfaces = Surfaces::new(&rest.yarns);
     assert!(surfaces.clearance() >= 0.98, "{}", surfaces.clearance());
+    let least = least_drawn(&cloth, &rest.yarns);
+    assert!(least >= COTTON_LEAST_AREA - 2e-3, "{least}");
     let place = |end: u32| {
         let yarns = rest.yarns.layout().yarns();
         let number = yarns.iter().position(|yarn| yarn.origin == Origin::End(end + 1)).unwrap();
         let points = rest.yarns.yarn_points(number).unwrap();
-        let thick = points.iter().map(|at| at.half_width() * at.half_height());
-        let radius = cloth.warp()[end as usize].radius_mm;
-        let least = thick.fold(f32::INFINITY, f32::min) / (radius * radius);
-        assert!(least >= COTTON_LEAST_AREA - 2e-3, "end {end}: {least}");
         points.iter().map(|at| f64::from(at.x)).sum::<f64>() / points.len() as f64
     };
     let gaps: Vec<f64> = (0..11).map(|end| place(end + 1) - place(end)).collect();
@@ -143,9 +142,7 @@ fn threads_that_work_as_one_close_up() {
         ("hopsack", &hopsack, [(weft, 0.4), (weft, 0.4)]),
     ] {
         let [ends, picks] = sets.map(|(tex, pitch)| threads(tex, pitch, 12));
-        let drawdown = Drawdown::from_fn(12, 12, up).unwrap();
-        let look = (vec![Material::default()], vec![Section::Circle]);
-        let cloth = Woven::new(drawdown, ends, picks, look.0, look.1).unwrap();
+        let cloth = woven(up, ends, picks);
         let rest = rested(&cloth);
         assert!(Surfaces::new(&rest.yarns).clearance() >= 0.98, "{name}");
         // The places of all threads, and how far pairs of ends are from one another.

@@ -14,7 +14,7 @@ use crate::surfaces::Surfaces;
 use crate::{at_rest, chance, cloth, tightest};
 
 /// The least area of any section of a yarn, as drawn, over the area of the round yarn.
-fn least_drawn(woven: &Woven, yarns: &Yarns) -> f32 {
+pub(crate) fn least_drawn(woven: &Woven, yarns: &Yarns) -> f32 {
     let least = |number: usize| {
         let radius = match yarns.layout().yarns()[number].origin {
             Origin::End(end) => woven.warp()[end as usize - 1].radius_mm,

@@ -5,9 +5,17 @@
 
 #include "expect.hpp"
 
+// A round thread, in mm. All else is as where nothing is said.
+texere_thread round_thread(double spacing, double diameter) {
+    texere_thread thread{};
+    thread.spacing_mm = spacing;
+    thread.diameter_mm = diameter;
+    return thread;
+}
+
 // A twill of 6 ends and 4 picks on 4 shafts, as arrays that live as long as this.
 struct Twill {
-    std::vector<texere_thread> threads{6, {.5, .2, 0, 0, 0, 0, 0, 0}};
+    std::vector<texere_thread> threads{6, round_thread(.5, .2)};
     std::vector<std::uint32_t> threading{1, 2, 3, 4, 1, 2}, tied{1, 2, 2, 3, 3, 4, 4, 1}, pressed{1, 2, 3, 4};
     std::vector<std::uint64_t> tie_up{0, 2, 4, 6, 8};
     texere_draft draft = texere::sized<texere_draft>();

@@ -22,7 +22,7 @@ typedef struct {
     uint padding[2];
 } CrossingsParams;
 
-// Rust: texere_gpu::ThreadRow, 44 bytes.
+// Rust: texere_gpu::ThreadRow, 32 bytes.
 typedef struct {
     float gap;
     float radius;
@@ -32,9 +32,6 @@ typedef struct {
     float least_area;
     float freedom;
     float height;
-    int level;
-    int before;
-    int after;
 } ThreadRow;
 
 // A lie (Rust: ThreadState) is the state of a thread at a crossing, a float4: shift, height, half
@@ -44,7 +41,8 @@ typedef struct {
 typedef struct {
     const CrossingsParams *params;
     __global const ThreadRow *threads;
-    __global const uint *ups;
+    // Rust: texere_gpu::CrossingSite.
+    __global const uint *sites;
     // The lies with momentum added, which this pass reads.
     __global const float4 *found;
 } Cloth;
@@ -107,9 +105,16 @@ float way_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
 
 // The side on which a set's thread lies: 1 on the face, -1 on the back.
 float side_of(const Cloth *cloth, uint2 site, uint of_set) {
-    uint number = number_of(cloth, site);
-    bool up = ((cloth->ups[number / 32u] >> (number % 32u)) & 1u) != 0u;
+    bool up = (cloth->sites[number_of(cloth, site)] & SITE_UP) != 0u;
     return up == (of_set == WARP) ? 1.0f : -1.0f;
+}
+
+// The distances, in threads, from the crossing's thread of a set to the nearest threads of that set
+// on its level, before and after it. A distance is 0 if there is no such thread.
+int2 steps_of(const Cloth *cloth, uint2 site, uint of_set) {
+    uint word = cloth->sites[number_of(cloth, site)] >> (2u * SITE_STEPS * of_set);
+    uint steps = (1u << SITE_STEPS) - 1u;
+    return (int2)((int)(word & steps), (int)((word >> SITE_STEPS) & steps));
 }
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----

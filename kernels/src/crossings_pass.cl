@@ -180,11 +180,11 @@ float2 seen_by_group(__local float2 *rows, uint lane, uint lanes, float2 seen) {
 // Moves all crossings, with one lane for each. Each workgroup writes a row: the longest step and
 // the least clearance of its lanes, which are joined in pairs.
 __kernel __attribute__((reqd_work_group_size(CROSSINGS_MOVE_GROUP, 1, 1)))
-void crossings_move(const CrossingsParams params, __global const ThreadRow *threads, __global const uint *ups,
+void crossings_move(const CrossingsParams params, __global const ThreadRow *threads, __global const uint *sites,
                     __global const float4 *found, __global float4 *crossings, __global float4 *next,
                     __global float2 *group_rows) {
     __local float2 group[CROSSINGS_MOVE_GROUP];
-    Cloth cloth = {&params, threads, ups, found};
+    Cloth cloth = {&params, threads, sites, found};
     uint number = get_global_id(0);
     float2 seen = (float2)(0.0f, UNSEEN);
     if (number < params.crossings) {

@@ -1,7 +1,7 @@
 // The energy of a crossing: terms of single threads, and terms that keep threads apart. This file
 // follows crossings.cl and crossings_passage.cl.
 //
-// Its twins are crossings_terms.wgsl, and texere-core's crossings/terms.rs.
+// Its twins are crossings_terms.wgsl, and texere-core's crossings/{terms,contacts}.rs.
 
 // A crossing of a thread, some steps from another.
 typedef struct {
@@ -190,11 +190,18 @@ void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float ris
 }
 
 // Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
-// There the neighbours are ellipses. They are `gap` apart before they shift.
+// There the neighbours are ellipses. They are `gap` apart before they shift. Threads further apart
+// than the next are neighbours of one level, and have to be so at both crossings.
 void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
                   float gap) {
     if (!next->there) {
         return;
+    }
+    if (abs(across) > 1) {
+        int2 steps = steps_of(cloth, next->site, of_set);
+        if ((across < 0 ? steps.x : steps.y) != (int)abs(across)) {
+            return;
+        }
     }
     float4 opposite = lie_of(cloth, beside(cloth, next->site, of_set, 0, across), of_set);
     float sign = across < 0 ? -1.0f : 1.0f;
@@ -264,9 +271,8 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     float2 slope = (float2)(0.0f, 0.0f);
-    bool layered = (cloth->params->flags & LAYERED) != 0u;
-    bool together = thread_of(cloth, site, WARP).level == thread_of(cloth, site, WEFT).level;
-    if (layered && !together) {
+    uint word = cloth->sites[number_of(cloth, site)];
+    if ((word & SITE_APART) != 0u) {
         slope = CROSSINGS_STEEPER * (float2)(slope_of(cloth, site, WEFT), slope_of(cloth, site, WARP));
     }
     float2 x = (float2)(warp.z, weft.z) * slope;
@@ -277,7 +283,7 @@ void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     see(block, apart / need);
     float room = apart - need - CROSSINGS_MARGIN;
     bool near = room < CROSSINGS_NEAR;
-    float pull = layered && together ? CROSSINGS_TOUCH : 0.0f;
+    float pull = (word & SITE_TOUCH) != 0u ? CROSSINGS_TOUCH : 0.0f;
     if (near || pull > 0.0f) {
         float weight = near ? cloth->params->penalty : pull;
         float residual = room < 0.0f ? room : pull / weight * room;
@@ -309,14 +315,15 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     add_difference(cloth, block, of_set, &here, &after, 1.0f, here.gap, tension, evenness);
     add_meeting(cloth, block, of_set, &before, &here, true);
     add_meeting(cloth, block, of_set, &here, &after, false);
-    add_neighbours(cloth, block, of_set, &before, &here, &after, -1, thread.before);
-    add_neighbours(cloth, block, of_set, &before, &here, &after, 1, thread.after);
-    ThreadRow crossed = thread_of(cloth, site, 1u - of_set);
-    if (crossed.before > 1) {
-        add_meeting_past(cloth, block, of_set, &here, -crossed.before);
+    int2 steps = steps_of(cloth, site, of_set);
+    add_neighbours(cloth, block, of_set, &before, &here, &after, -1, steps.x);
+    add_neighbours(cloth, block, of_set, &before, &here, &after, 1, steps.y);
+    int2 crossed = steps_of(cloth, site, 1u - of_set);
+    if (crossed.x > 1) {
+        add_meeting_past(cloth, block, of_set, &here, -crossed.x);
     }
-    if (crossed.after > 1) {
-        add_meeting_past(cloth, block, of_set, &here, crossed.after);
+    if (crossed.y > 1) {
+        add_meeting_past(cloth, block, of_set, &here, crossed.y);
     }
 }
 

@@ -25,7 +25,7 @@ pub const MOVE: Shader = Shader {
     bindings: &[
         uniform(Resource::CrossingsParams),
         read(Resource::ThreadRows),
-        read(Resource::Ups),
+        read(Resource::Sites),
         read(Resource::FoundCrossings),
         write(Resource::Crossings),
         write(Resource::NextCrossings),

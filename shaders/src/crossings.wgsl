@@ -20,7 +20,7 @@ struct CrossingsParams {
     padding: vec2<u32>,
 }
 
-// Rust: texere_gpu::ThreadRow, 44 bytes.
+// Rust: texere_gpu::ThreadRow, 32 bytes.
 struct ThreadRow {
     gap: f32,
     radius: f32,
@@ -30,9 +30,6 @@ struct ThreadRow {
     least_area: f32,
     freedom: f32,
     height: f32,
-    level: i32,
-    before: i32,
-    after: i32,
 }
 
 // A lie (Rust: ThreadState) is the state of a thread at a crossing, a vec4<f32>: shift, height,
@@ -40,7 +37,8 @@ struct ThreadRow {
 
 @group(0) @binding(34) var<uniform> cloth: CrossingsParams;
 @group(0) @binding(35) var<storage, read> threads: array<ThreadRow>;
-@group(0) @binding(36) var<storage, read> ups: array<u32>;
+// Rust: texere_gpu::CrossingSite.
+@group(0) @binding(36) var<storage, read> sites: array<u32>;
 // The lies with momentum added, which this pass reads.
 @group(0) @binding(37) var<storage, read> found: array<vec4<f32>>;
 
@@ -106,9 +104,16 @@ fn way_of(site: vec2<u32>, of_set: u32, steps: i32) -> f32 {
 
 // The side on which a set's thread lies: 1 on the face, -1 on the back.
 fn side_of(site: vec2<u32>, of_set: u32) -> f32 {
-    let number = number_of(site);
-    let up = ((ups[number / 32u] >> (number % 32u)) & 1u) != 0u;
+    let up = (sites[number_of(site)] & SITE_UP) != 0u;
     return select(-1.0, 1.0, up == (of_set == WARP));
+}
+
+// The distances, in threads, from the crossing's thread of a set to the nearest threads of that set
+// on its level, before and after it. A distance is 0 if there is no such thread.
+fn steps_of(site: vec2<u32>, of_set: u32) -> vec2<i32> {
+    let word = sites[number_of(site)] >> (2u * SITE_STEPS * of_set);
+    let steps = (1u << SITE_STEPS) - 1u;
+    return vec2<i32>(vec2(word & steps, (word >> SITE_STEPS) & steps));
 }
 
 // ---- CrossingBlock: the energy's slope and curvature in the eight unknowns of a crossing ----

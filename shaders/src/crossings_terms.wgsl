@@ -1,8 +1,8 @@
 // The energy of a crossing: terms of single threads, and terms that keep threads apart. This file
 // follows crossings.wgsl and crossings_passage.wgsl.
 //
-// crossings_terms.cl is the twin of this file, and texere-core's crossings/terms.rs is the
-// definition.
+// crossings_terms.cl is the twin of this file, and texere-core's crossings/terms.rs and contacts.rs
+// are the definition.
 
 // A crossing of a thread, some steps from another.
 struct Along {
@@ -192,10 +192,17 @@ fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: 
 }
 
 // Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
-// There the neighbours are ellipses. They are `gap` apart before they shift.
+// There the neighbours are ellipses. They are `gap` apart before they shift. Threads further apart
+// than the next are neighbours of one level, and have to be so at both crossings.
 fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
     if !next.there {
         return;
+    }
+    if abs(across) > 1 {
+        let steps = steps_of(next.site, of_set);
+        if select(steps.y, steps.x, across < 0) != abs(across) {
+            return;
+        }
     }
     let opposite = lie_of(beside(next.site, of_set, 0, across), of_set);
     let sign = f32(sign(across));
@@ -272,9 +279,8 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
     // reaches further.
     var slope = vec2(0.0);
-    let layered = (cloth.flags & LAYERED) != 0u;
-    let together = thread_of(site, WARP).level == thread_of(site, WEFT).level;
-    if layered && !together {
+    let word = sites[number_of(site)];
+    if (word & SITE_APART) != 0u {
         slope = CROSSINGS_STEEPER * vec2(slope_of(site, WEFT), slope_of(site, WARP));
     }
     let x = vec2(warp.z, weft.z) * slope;
@@ -285,7 +291,7 @@ fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     see(block, apart / need);
     let room = apart - need - CROSSINGS_MARGIN;
     let near = room < CROSSINGS_NEAR;
-    let pull = select(0.0, CROSSINGS_TOUCH, layered && together);
+    let pull = select(0.0, CROSSINGS_TOUCH, (word & SITE_TOUCH) != 0u);
     if near || pull > 0.0 {
         let weight = select(pull, cloth.penalty, near);
         let residual = select(pull / weight * room, room, room < 0.0);
@@ -316,14 +322,15 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     add_difference(block, of_set, here, after, 1.0, here.gap, tension, evenness);
     add_meeting(block, of_set, before, here, true);
     add_meeting(block, of_set, here, after, false);
-    add_neighbours(block, of_set, before, here, after, -1, thread.before);
-    add_neighbours(block, of_set, before, here, after, 1, thread.after);
-    let crossed = thread_of(site, 1u - of_set);
-    if crossed.before > 1 {
-        add_meeting_past(block, of_set, here, -crossed.before);
+    let steps = steps_of(site, of_set);
+    add_neighbours(block, of_set, before, here, after, -1, steps.x);
+    add_neighbours(block, of_set, before, here, after, 1, steps.y);
+    let crossed = steps_of(site, 1u - of_set);
+    if crossed.x > 1 {
+        add_meeting_past(block, of_set, here, -crossed.x);
     }
-    if crossed.after > 1 {
-        add_meeting_past(block, of_set, here, crossed.after);
+    if crossed.y > 1 {
+        add_meeting_past(block, of_set, here, crossed.y);
     }
 }
 

@@ -120,8 +120,8 @@ pub enum Resource {
     CrossingsParams = 34,
     /// `ThreadRow`s, ends first.
     ThreadRows = 35,
-    /// A bit for each crossing, set if the warp lies on the face.
-    Ups = 36,
+    /// `CrossingSite`s of `texere-gpu`.
+    Sites = 36,
     /// `CrossingState`s with momentum added, which a pass reads.
     FoundCrossings = 37,
     /// `CrossingState`s without momentum.

@@ -114,8 +114,9 @@ impl CrossingsError {
     #[must_use]
     pub fn subject(&self) -> Option<Subject> {
         Some(match self {
-            Self::OutOfMemory(_) | Self::Drawdown { .. } => return None,
+            Self::OutOfMemory(_) | Self::Drawdown { .. } | Self::Levels { .. } => return None,
             Self::TooFew { .. } | Self::TooMany { .. } => Subject::Size,
+            Self::Level { .. } => Subject::Structure,
             Self::Setting { setting, .. } => match *setting {
                 "tension of the warp" => Subject::WarpTension,
                 "tension of the weft" => Subject::WeftTension,

@@ -120,3 +120,24 @@ fn threads_of_other_sets_take_their_own_room() {
     let BySet { warp: ends, weft: picks } = cloth.setts();
     assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
 }
+
+/// Each layer of a double cloth has the sett of a single cloth, whether the layers change places or
+/// not.
+#[test]
+fn double_cloth_has_room_for_twice_as_many_threads() {
+    let greatest = |figure: usize| {
+        let up = |end: usize, pick: usize| {
+            let turned = !(end / figure + pick / figure).is_multiple_of(2);
+            let [face_end, face_pick] = [end, pick].map(|thread| thread.is_multiple_of(2) != turned);
+            if face_end == face_pick { (end / 2 + pick / 2).is_multiple_of(2) } else { face_end }
+        };
+        let thread = Thread::new(0.5, 0.1);
+        let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+        let drawdown = Drawdown::from_fn(96, 96, up).unwrap();
+        let cloth = Woven::new(drawdown, vec![thread; 96], vec![thread; 96], materials, sections).unwrap();
+        cloth.setts().warp.greatest_per_cm
+    };
+    // A plain layer of threads of 0.2 mm has 25 to the cm.
+    assert!((greatest(96) - 50.0).abs() < 1e-3, "{}", greatest(96));
+    assert!((greatest(24) - 50.0).abs() < 2.5, "{}", greatest(24));
+}

@@ -1,5 +1,6 @@
 //! Draws the point papers in `designs/`: an ogee lattice with a pomegranate in each of its fields,
-//! lozenges and an ornament for knits, rings for Jacquard bars, and a stitched double cloth.
+//! lozenges and an ornament for knits, rings for Jacquard bars, a stitched double cloth, and a
+//! double cloth with discs.
 //!
 //! `cargo run -p texere-formats --example draw_motifs` writes them to that folder. They are
 //! computed from sums, products and square roots alone, so that every machine draws the same
@@ -252,6 +253,23 @@ fn double_twill([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
+/// Every crossing of a double cloth of two plain layers, which change places in a disc. Ends and
+/// picks belong alternately to the one layer and to the other.
+fn figured_double([width, height]: [usize; 2]) -> Paper {
+    let mut paper = Paper::new([width, height]);
+    for (place, tone) in paper.pixels.iter_mut().enumerate() {
+        let [end, pick] = [place % width, height - 1 - place / width];
+        let [across, along] =
+            [(end, width), (pick, height)].map(|(at, side)| (at as f32 + 0.5) / side as f32 * 2.0 - 1.0);
+        let face = usize::from(across.hypot(along) < 0.6);
+        let up = if end % 2 == pick % 2 { (end / 2 + pick / 2).is_multiple_of(2) } else { end % 2 == face };
+        if up {
+            *tone = Tone::Figure;
+        }
+    }
+    paper
+}
+
 /// A point paper that the repository holds.
 struct Drawing {
     file: &'static str,
@@ -261,7 +279,7 @@ struct Drawing {
     palette: &'static [[u8; 3]],
 }
 
-const DRAWINGS: [Drawing; 7] = [
+const DRAWINGS: [Drawing; 8] = [
     Drawing {
         file: "damask.png",
         size: [240, 320],
@@ -284,6 +302,12 @@ const DRAWINGS: [Drawing; 7] = [
         file: "double-cloth.png",
         size: [16, 16],
         draw: double_twill,
+        palette: &[[0xff, 0xff, 0xff], [0x00, 0x00, 0x00]],
+    },
+    Drawing {
+        file: "figured-double.png",
+        size: [72, 72],
+        draw: figured_double,
         palette: &[[0xff, 0xff, 0xff], [0x00, 0x00, 0x00]],
     },
     Drawing {

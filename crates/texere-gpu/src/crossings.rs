@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 
 use bytemuck::{Pod, Zeroable};
 use texere_core::BackendError;
-use texere_core::crossings::{CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
+use texere_core::crossings::{BESIDE_MAX, CrossingsPass, CrossingsPlan, CrossingsSeen, Row, Set};
 
 /// The most passes that a device makes before the host waits for them.
 pub const CROSSINGS_PASSES: u32 = 16;
 
 /// A thread. Lengths are in the plan's unit.
 ///
-/// **Shape**: eight `f32` and three `i32`, 44 bytes. A table has all ends, then all picks.
+/// **Shape**: eight `f32`, 32 bytes. A table has all ends, then all picks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct ThreadRow {
@@ -32,15 +32,9 @@ pub struct ThreadRow {
     pub freedom: f32,
     /// The largest height of the thread, up or down.
     pub height: f32,
-    /// The thread's level.
-    pub level: i32,
-    /// Distance to the nearest thread of the same level before this one, in threads, 0 for none.
-    pub before: i32,
-    /// Distance to the nearest thread of the same level after this one, in threads, 0 for none.
-    pub after: i32,
 }
 
-const _: () = assert!(size_of::<ThreadRow>() == 44 && std::mem::offset_of!(ThreadRow, after) == 40);
+const _: () = assert!(size_of::<ThreadRow>() == 32 && std::mem::offset_of!(ThreadRow, height) == 28);
 
 /// The parameters of a pass.
 ///
@@ -54,7 +48,7 @@ pub struct CrossingsParams {
     pub ends: u32,
     /// Number of picks.
     pub picks: u32,
-    /// Bits: [`CrossingsParams::ENDS`], [`CrossingsParams::PICKS`], [`CrossingsParams::LAYERED`].
+    /// Bits: [`CrossingsParams::ENDS`] and [`CrossingsParams::PICKS`].
     pub flags: u32,
     /// The tension of the warp, 1 for relaxed cloth.
     pub tension_warp: f32,
@@ -94,10 +88,8 @@ impl ThreadRow {
     #[must_use]
     pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
         let row = |row: &Row| {
-            let &Row { gap, radius, stiffness, aspect, shape, least_area, freedom, height, level, beside } =
-                row;
-            let [before, after] = beside;
-            Self { gap, radius, stiffness, aspect, shape, least_area, freedom, height, level, before, after }
+            let &Row { gap, radius, stiffness, aspect, shape, least_area, freedom, height } = row;
+            Self { gap, radius, stiffness, aspect, shape, least_area, freedom, height }
         };
         Set::BOTH.into_iter().flat_map(|set| plan.rows(set)).map(row).collect()
     }
@@ -108,21 +100,18 @@ impl CrossingsParams {
     pub const ENDS: u32 = 1;
     /// Bit of [`CrossingsParams::flags`]: the first pick follows the last.
     pub const PICKS: u32 = 2;
-    /// Bit of [`CrossingsParams::flags`]: each level of both sets is a layer of the cloth.
-    pub const LAYERED: u32 = 4;
 
     /// The parameters of `plan`, without those of a pass.
     ///
     /// ```
     /// use texere_core::crossings::{Crossings, CrossingsPass, CrossingsPlan, CrossingThread};
-    /// use texere_gpu::{CrossingsParams, ThreadRow, crossings_ups};
+    /// use texere_gpu::{CrossingsParams, ThreadRow};
     /// let thread = CrossingThread::new(0.4, 0.2);
     /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
     /// let plan = CrossingsPlan::new(&plain.repeats(true, false))?;
     /// let params = CrossingsParams::new(&plan).with_pass(&CrossingsPass::of(50), 3);
-    /// let flags = CrossingsParams::ENDS | CrossingsParams::LAYERED;
-    /// assert_eq!((params.crossings, params.flags, params.penalty), (4, flags, 1000.0));
-    /// assert_eq!((ThreadRow::all(&plan).len(), crossings_ups(&plan)), (4, vec![0b1001]));
+    /// assert_eq!((params.crossings, params.flags, params.penalty), (4, CrossingsParams::ENDS, 1000.0));
+    /// assert_eq!(ThreadRow::all(&plan).len(), 4);
     /// # Ok::<(), texere_core::CrossingsError>(())
     /// ```
     #[must_use]
@@ -132,7 +121,7 @@ impl CrossingsParams {
             crossings: plan.crossings() as u32,
             ends: plan.rows(Set::Warp).len() as u32,
             picks: plan.rows(Set::Weft).len() as u32,
-            flags: [(ends, Self::ENDS), (picks, Self::PICKS), (plan.is_layered(), Self::LAYERED)]
+            flags: [(ends, Self::ENDS), (picks, Self::PICKS)]
                 .into_iter()
                 .filter_map(|(is_set, flag)| is_set.then_some(flag))
                 .sum(),
@@ -179,25 +168,61 @@ pub fn crossings_batches(
     Ok(ControlFlow::Continue(()))
 }
 
-/// A bit for each crossing of `plan`, from the lowest bit on. The bit is 1 if the warp lies on the
-/// face.
-#[must_use]
-pub fn crossings_ups(plan: &CrossingsPlan) -> Vec<u32> {
-    let mut ups = vec![0; plan.crossings().div_ceil(32)];
-    for number in 0..plan.crossings() {
-        if plan.side(plan.site(number), Set::Warp) > 0.0 {
-            ups[number / 32] |= 1 << (number % 32);
-        }
+/// What a device reads of a crossing besides the states of its threads.
+///
+/// **Shape**: a `u32`. Its lowest bits are four distances of [`CrossingSite::STEPS`] bits each:
+/// from the end to the nearest end of its level before it and after it, and likewise for the pick.
+/// A distance is 0 if there is no such thread. Three bits follow.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+pub struct CrossingSite(pub u32);
+
+const _: () = assert!(BESIDE_MAX < 1 << CrossingSite::STEPS);
+
+impl CrossingSite {
+    /// The number of bits of a distance.
+    pub const STEPS: u32 = 5;
+    /// Bit: the end lies on the face.
+    pub const UP: u32 = 1 << 20;
+    /// Bit: end and pick belong to one layer, and touch.
+    pub const TOUCH: u32 = 1 << 21;
+    /// Bit: end and pick belong to different layers.
+    pub const APART: u32 = 1 << 22;
+
+    /// The sites of all crossings of `plan`.
+    ///
+    /// ```
+    /// use texere_core::crossings::{Crossings, CrossingsPlan, CrossingThread};
+    /// use texere_gpu::CrossingSite;
+    /// let thread = CrossingThread::new(0.4, 0.2);
+    /// let plain = Crossings::new(vec![true, false, false, true], vec![thread; 2], vec![thread; 2]);
+    /// let sites = CrossingSite::all(&CrossingsPlan::new(&plain)?);
+    /// // The nearest neighbour on every side is the next thread.
+    /// assert_eq!(sites[0].0, CrossingSite::UP | CrossingSite::TOUCH | 0b00001_00001_00001_00001);
+    /// # Ok::<(), texere_core::CrossingsError>(())
+    /// ```
+    #[must_use]
+    pub fn all(plan: &CrossingsPlan) -> Vec<Self> {
+        let word = |number: usize| {
+            let site = plan.site(number);
+            let neighbours = plan.neighbours(site);
+            let steps = neighbours.beside.as_flattened().iter().rev();
+            let steps = steps.fold(0, |word, &steps| word << Self::STEPS | u32::from(steps));
+            let bit = |is_set: bool, bit: u32| if is_set { bit } else { 0 };
+            let up = bit(plan.side(site, Set::Warp) > 0.0, Self::UP);
+            let contact = bit(neighbours.touch(), Self::TOUCH) | bit(neighbours.are_apart(), Self::APART);
+            Self(steps | up | contact)
+        };
+        (0..plan.crossings()).map(word).collect()
     }
-    ups
 }
 
 /// Lower bound on the bytes of device memory that a pass of `plan` moves. For each crossing, a pass
 /// reads the state with momentum, reads and writes the state without momentum, and writes the state
-/// with momentum for the next pass. It also reads the bit that says which thread lies on top. A
-/// crossing also reads the states of its neighbours, which are not counted again.
+/// with momentum for the next pass. It also reads the crossing's [`CrossingSite`]. A crossing also
+/// reads the states of its neighbours, which are not counted again.
 #[must_use]
 pub fn crossings_pass_bytes(plan: &CrossingsPlan) -> u64 {
     let crossings = plan.crossings() as u64;
-    crossings * 4 * 32 + crossings / 8
+    crossings * (4 * 32 + 4)
 }

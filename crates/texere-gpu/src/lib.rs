@@ -5,7 +5,7 @@
 //! |---|---|
 //! | tables that its kernels read beside control points and blocks | [`YarnRow`], [`CapRow`], [`Params`], [`part_rows`], [`cap_pattern`] |
 //! | tables of a settling, and what comes back in them | [`PlaceRow`], [`StrandRow`], [`ChordRow`], [`SettlingParams`], [`ExtentRow`], [`SeenRow`] |
-//! | tables of crossings | [`CrossingsParams`], [`ThreadRow`], [`crossings_ups`], [`CrossingsSeenRow`] |
+//! | tables of crossings | [`CrossingsParams`], [`ThreadRow`], [`CrossingSite`], [`CrossingsSeenRow`] |
 //! | tables that turn settled places into control points, and boxes round these points | [`SettledParams`], [`SettledRow`], [`BoundsRow`] |
 //! | uploads of control points with virtual ends | [`YarnEnds`], [`PaddedUpload`] |
 //! | the constants that kernels and shaders share with the core | [`prelude()`] |
@@ -38,8 +38,8 @@ mod tables;
 mod upload;
 
 pub use crossings::{
-    CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches, crossings_pass_bytes,
-    crossings_ups,
+    CROSSINGS_PASSES, CrossingSite, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_batches,
+    crossings_pass_bytes,
 };
 pub use loaded::LoadedChunk;
 pub use memory::{device_buffers, host_bytes_beside_gpu};

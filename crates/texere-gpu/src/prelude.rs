@@ -10,7 +10,7 @@ use texere_core::definitions::{
 };
 use texere_core::{ArcLength, Frame, PackedVertex, Quantum, crossings, settling};
 
-use crate::crossings::CrossingsParams;
+use crate::crossings::{CrossingSite, CrossingsParams};
 use crate::settling::{SettlingParams, UNSEEN};
 
 /// A language of device code.
@@ -140,9 +140,9 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
 ];
 
 /// The constants of settling by crossings, which are also written before all sources. The flags
-/// `REPEATS_ENDS`, `REPEATS_PICKS` and `LAYERED` belong to [`CrossingsParams`]. All others are
-/// constants of the core.
-pub const CROSSINGS_CONSTANTS: [Constant; 28] = [
+/// `REPEATS_ENDS` and `REPEATS_PICKS` belong to [`CrossingsParams`], and those whose names begin
+/// with `SITE` to [`CrossingSite`]. All others are constants of the core.
+pub const CROSSINGS_CONSTANTS: [Constant; 31] = [
     float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
     float("CROSSINGS_AREA_GAIN", crossings::AREA_GAIN),
     float("CROSSINGS_SOLID", crossings::SOLID),
@@ -170,7 +170,10 @@ pub const CROSSINGS_CONSTANTS: [Constant; 28] = [
     float("PASSAGE_TURN", crossings::TURN),
     integer("REPEATS_ENDS", CrossingsParams::ENDS),
     integer("REPEATS_PICKS", CrossingsParams::PICKS),
-    integer("LAYERED", CrossingsParams::LAYERED),
+    integer("SITE_STEPS", CrossingSite::STEPS),
+    integer("SITE_UP", CrossingSite::UP),
+    integer("SITE_TOUCH", CrossingSite::TOUCH),
+    integer("SITE_APART", CrossingSite::APART),
 ];
 
 /// The text that is written before the sources of a program: the definitions of all [`CONSTANTS`],

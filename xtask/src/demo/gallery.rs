@@ -11,7 +11,7 @@ type View = (&'static str, &'static [&'static str]);
 const FOLDER: &str = "docs/gallery";
 
 /// The designs, each with its views beside face and back.
-const DESIGNS: [(&str, &[View]); 34] = [
+const DESIGNS: [(&str, &[View]); 35] = [
     ("plain.toml", &[CLOSE_UP, CUT]),
     ("poplin.toml", &[CLOSE_UP]),
     ("sheeting.toml", &[CLOSE_UP]),
@@ -22,6 +22,7 @@ const DESIGNS: [(&str, &[View]); 34] = [
     ("denim.toml", &[CLOSE_UP, CUT]),
     ("satin.toml", &[CLOSE_UP, CUT]),
     ("double-cloth.toml", &[CLOSE_UP, CUT]),
+    ("figured-double.toml", &[CLOSE_UP, CUT]),
     ("herringbone.wif", &[CLOSE_UP, ("oblique", &["--view", "oblique"])]),
     ("damask.toml", &[CLOSE_UP]),
     ("two-ply.toml", &[FINE]),

@@ -56,7 +56,7 @@ pub enum CrossingsError {
         set: &'static str,
         /// The thread's number, counted from 0.
         thread: usize,
-        /// `pitch`, `diameter`, `stiffness` or `level`.
+        /// `pitch`, `diameter`, `stiffness`, `firmness`, `flatness` or `least area`.
         setting: &'static str,
         /// The value given.
         value: f32,
@@ -64,6 +64,32 @@ pub enum CrossingsError {
         low: f32,
         /// The largest value that is accepted.
         high: f32,
+    },
+    /// Levels that are given for another number of crossings.
+    #[error("{levels} of the {set} do not fit {crossings}", levels = counted(*.levels, "level"), crossings = counted(*.crossings, "crossing"))]
+    Levels {
+        /// `warp` or `weft`.
+        set: &'static str,
+        /// Number of levels given.
+        levels: usize,
+        /// Number of crossings of the cloth.
+        crossings: usize,
+    },
+    /// A level whose number is not below the number of levels, or too many levels.
+    #[error("level {number} of the {set} at end {} and pick {} is not one of {of} levels, of which there may be {most}", .end + 1, .pick + 1)]
+    Level {
+        /// `warp` or `weft`.
+        set: &'static str,
+        /// The end's number, counted from 0.
+        end: usize,
+        /// The pick's number, counted from 0.
+        pick: usize,
+        /// The level's number, counted from 0.
+        number: u8,
+        /// The number of levels given.
+        of: u8,
+        /// The most levels that a set has.
+        most: u8,
     },
     /// An allocation failed.
     #[error(transparent)]

@@ -9,8 +9,12 @@
 //! [`CrossingsPlan::ahead`] gives the state that neighbouring crossings read in the next pass.
 
 mod block;
+mod contacts;
 mod crossing;
 pub(crate) mod error;
+mod here;
+mod level;
+mod neighbours;
 mod pass;
 mod passage;
 mod plan;
@@ -22,8 +26,11 @@ mod step;
 mod terms;
 
 pub use block::{CrossingBlock, DAMPING, PIVOT};
+pub use contacts::{MARGIN, NEAR, STEEPER, TOUCH};
 pub use crossing::{CrossingState, Set, ThreadState};
 use error::CrossingsError;
+pub use level::Level;
+pub use neighbours::{BESIDE_MAX, Neighbours};
 pub use pass::CrossingsPass;
 pub use passage::{CURVED, STEPS, StraightPassage, TURN};
 pub use plan::CrossingsPlan;
@@ -32,7 +39,4 @@ pub use rows::{ASPECT, Row, SHAPE, Site};
 pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
 pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP, UPHILL};
-pub use terms::{
-    AREA_GAIN, AREA_LOSS, BEND, MARGIN, NEAR, PRESS, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER,
-    TENSION, TOUCH,
-};
+pub use terms::{AREA_GAIN, AREA_LOSS, BEND, PRESS, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, TENSION};

@@ -1,7 +1,10 @@
 //! The plan: all counts and tables of a problem, made on the host before anything is launched.
 
+use super::neighbours::neighbours;
 use super::rows::{further, rows};
-use super::{CrossingState, CrossingThread, Crossings, CrossingsError, Row, Set, Site, ThreadState};
+use super::{
+    CrossingState, CrossingThread, Crossings, CrossingsError, Level, Neighbours, Row, Set, Site, ThreadState,
+};
 use crate::backend::{room, zeroed};
 use crate::{BackendError, RADIUS_MAX, RADIUS_MIN};
 
@@ -37,15 +40,9 @@ const LEAST_AREA: [f32; 2] = [0.0, 1.0];
 /// (`balanced_plain_weave_is_alike_both_ways`).
 const WEFT_TAUTER: f32 = 1.004;
 
-/// The most levels of a set.
-const LEVELS_MAX: u32 = 8;
-
 /// The largest height of a thread above or below the middle of the cloth, in units, for each level
 /// of the set with most levels.
 const HEIGHT: f32 = 1.5;
-
-/// The distance of levels at the start, in units.
-const RISE: f32 = 1.5;
 
 /// The share of its radius with which a thread starts. It is the square root of 0.4, so that the
 /// thread has 0.4 of its area.
@@ -67,19 +64,20 @@ const THIN: f32 = 0.632_455_5;
 pub struct CrossingsPlan {
     unit: f32,
     ups: Vec<bool>,
+    neighbours: Vec<Neighbours>,
     rows: [Vec<Row>; 2],
     repeats: [bool; 2],
     tension: [f32; 2],
     press: f32,
     passes: u32,
-    is_layered: bool,
 }
 
 impl CrossingsPlan {
     /// Checks a problem and makes its plan.
     ///
-    /// **Errors**: [`CrossingsError`] for a drawdown that does not fit, fewer than two threads of a
-    /// set, more than 2³¹ crossings, values out of range or not finite, and short memory.
+    /// **Errors**: [`CrossingsError`] for a drawdown or levels that don't fit, fewer than two
+    /// threads of a set, more than 2³¹ crossings, values out of range or not finite, and short
+    /// memory.
     pub fn new(problem: &Crossings) -> Result<Self, CrossingsError> {
         let [ends, picks] = [0, 1].map(|set| problem.threads[set].len());
         for (what, count) in [("end", ends), ("pick", picks)] {
@@ -104,7 +102,6 @@ impl CrossingsPlan {
             each(set, "firmness", threads, |thread| thread.firmness, FIRMNESS)?;
             each(set, "flatness", threads, |thread| thread.flatness, FLATNESS)?;
             each(set, "least area", threads, |thread| thread.least_area, LEAST_AREA)?;
-            each(set, "level", threads, |thread| thread.level as f32, [0.0, (LEVELS_MAX - 1) as f32])?;
         }
         let mean = |threads: &[CrossingThread]| {
             threads.iter().map(|thread| f64::from(thread.diameter)).sum::<f64>() / threads.len() as f64
@@ -114,21 +111,21 @@ impl CrossingsPlan {
             each(set, "diameter", threads, |thread| thread.diameter, DIAMETER.map(|limit| limit * unit))?;
             each(set, "pitch", threads, |thread| thread.pitch, PITCH.map(|limit| limit * unit))?;
         }
-        let levels = [0, 1].map(|set| levels(&problem.threads[set]));
-        let height = HEIGHT * levels[0].max(levels[1]) as f32;
+        let neighbours = neighbours(problem)?;
+        let levels = f32::from(neighbours.iter().flat_map(|at| at.levels).map(|at| at.of).fold(1, u8::max));
         // Weights of bends and shapes of at most those of cotton leave penalties the strongest.
         // Tension and press have less effect on stiffer threads.
         let stiffest = problem.threads.iter().flatten().map(|thread| thread.stiffness).fold(1.0, f32::max);
-        let row = |set: usize| rows(&problem.threads[set], unit, stiffest, height, problem.repeats[set]);
+        let row = |set: usize| rows(&problem.threads[set], unit, stiffest, HEIGHT * levels);
         Ok(Self {
             unit,
             ups: copied("the drawdown", &problem.ups)?,
+            neighbours,
             rows: [row(0)?, row(1)?],
             repeats: problem.repeats,
             tension: [problem.tension[0], WEFT_TAUTER * problem.tension[1]].map(|tension| tension / stiffest),
-            press: problem.press / (levels[0].max(levels[1]) as f32).powi(2) / stiffest,
+            press: problem.press / levels.powi(2) / stiffest,
             passes: problem.passes,
-            is_layered: levels[0] == levels[1],
         })
     }
 
@@ -168,26 +165,12 @@ impl CrossingsPlan {
         self.repeats
     }
 
-    /// Whether each level of both sets is a layer of the cloth. This holds if both sets have the
-    /// same number of levels. Single cloth has one layer.
+    /// How the two threads of a crossing lie among the threads of their sets.
+    ///
+    /// **Panics** past the last crossing.
     #[must_use]
-    pub const fn is_layered(&self) -> bool {
-        self.is_layered
-    }
-
-    /// Whether the two threads of a crossing belong to different layers.
-    ///
-    /// **Panics** past the last crossing.
-    pub(super) fn are_apart(&self, site: Site) -> bool {
-        self.is_layered && self.rows[0][site.end].level != self.rows[1][site.pick].level
-    }
-
-    /// Whether the two threads of a crossing bend round one another, and therefore touch. In cloth
-    /// with layers, both have to belong to one layer.
-    ///
-    /// **Panics** past the last crossing.
-    pub(super) fn touch(&self, site: Site) -> bool {
-        self.is_layered && !self.are_apart(site)
+    pub fn neighbours(&self, site: Site) -> &Neighbours {
+        &self.neighbours[self.number(site)]
     }
 
     /// The tension of a set's threads, about 1 for relaxed cloth.
@@ -255,15 +238,11 @@ impl CrossingsPlan {
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub fn start(&self) -> Result<Vec<CrossingState>, BackendError> {
         let mut all = zeroed("crossings", self.ups.len() as u64)?;
-        let middles = Set::BOTH.map(|set| {
-            let highest = self.rows(set).iter().map(|row| row.level).max().unwrap_or(0);
-            0.5 * highest as f32
-        });
         for (number, crossing) in all.iter_mut().enumerate() {
             let site = self.site(number);
             let rows = Set::BOTH.map(|set| self.rows(set)[site.thread(set)]);
             let radii = rows.map(|row| THIN * row.radius);
-            let [warp, weft] = [0, 1].map(|set| RISE * (rows[set].level as f32 - middles[set]));
+            let [warp, weft] = self.neighbours[number].levels.map(Level::start);
             let touching = self.side(site, Set::Warp) * (radii[0] + radii[1]);
             let is_parted = (warp - weft) * touching >= touching * touching;
             let heights = if is_parted {
@@ -282,11 +261,6 @@ impl CrossingsPlan {
         }
         Ok(all)
     }
-}
-
-/// The number of levels of a set.
-fn levels(threads: &[CrossingThread]) -> u32 {
-    threads.iter().map(|thread| thread.level).max().unwrap_or(0) + 1
 }
 
 fn copied<T: Copy>(what: &'static str, from: &[T]) -> Result<Vec<T>, CrossingsError> {

@@ -1,5 +1,7 @@
 //! The problem that is settled: the drawdown and the threads of a cloth.
 
+use super::Level;
+
 /// A thread of the warp or the weft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrossingThread {
@@ -20,18 +22,13 @@ pub struct CrossingThread {
     /// section is as small as that when its fibres can't be packed more closely. It is 0.75 for a
     /// cotton yarn.
     pub least_area: f32,
-    /// The level among the threads of its set, 0 for the lowest. Threads of one level lie side by
-    /// side, and threads of different levels above or below one another. The picks of a double
-    /// cloth alternate between two levels. If warp and weft have the same number of levels, and
-    /// more than one, the ends and picks of a level are a layer of the cloth.
-    pub level: u32,
 }
 
 impl CrossingThread {
-    /// A cotton thread of ordinary twist, round when nothing presses it, of the lowest level.
+    /// A cotton thread of ordinary twist, round when nothing presses it.
     #[must_use]
     pub const fn new(pitch: f32, diameter: f32) -> Self {
-        Self { pitch, diameter, stiffness: 1.0, firmness: 1.0, flatness: 1.0, least_area: 0.75, level: 0 }
+        Self { pitch, diameter, stiffness: 1.0, firmness: 1.0, flatness: 1.0, least_area: 0.75 }
     }
 }
 
@@ -49,6 +46,7 @@ impl CrossingThread {
 pub struct Crossings {
     pub(crate) ups: Vec<bool>,
     pub(crate) threads: [Vec<CrossingThread>; 2],
+    pub(crate) levels: [Vec<Level>; 2],
     pub(crate) repeats: [bool; 2],
     pub(crate) tension: [f32; 2],
     pub(crate) press: f32,
@@ -60,7 +58,23 @@ impl Crossings {
     /// warp lies on the face, pick after pick, and end after end in each pick.
     #[must_use]
     pub const fn new(ups: Vec<bool>, warp: Vec<CrossingThread>, weft: Vec<CrossingThread>) -> Self {
-        Self { ups, threads: [warp, weft], repeats: [true; 2], tension: [1.0; 2], press: 1.0, passes: 400 }
+        Self {
+            ups,
+            threads: [warp, weft],
+            levels: [Vec::new(), Vec::new()],
+            repeats: [true; 2],
+            tension: [1.0; 2],
+            press: 1.0,
+            passes: 400,
+        }
+    }
+
+    /// Sets the levels of end and pick at each crossing, in the order of the drawdown. By default
+    /// the cloth is single.
+    #[must_use]
+    pub fn levels(mut self, warp: Vec<Level>, weft: Vec<Level>) -> Self {
+        self.levels = [warp, weft];
+        self
     }
 
     /// Sets whether the cloth goes on beyond its last end, and beyond its last pick. If not,

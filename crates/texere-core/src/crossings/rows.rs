@@ -3,9 +3,6 @@
 use super::{CrossingThread, CrossingsError, Set};
 use crate::backend::room;
 
-/// The largest distance, in threads, at which threads of one level count as neighbours.
-const BESIDE_MAX: i32 = 16;
-
 /// The bounds of a thread's shift sideways: a quarter of the plan's unit, and two fifths of the
 /// distance to the nearer neighbour. The smaller of the two holds. Without bounds, threads pass
 /// through one another. With half of the unit, plain weave of 10 tex with an end of 60 tex keeps
@@ -41,11 +38,6 @@ pub struct Row {
     pub freedom: f32,
     /// The largest height of the thread above or below the middle of the cloth.
     pub height: f32,
-    /// The thread's level ([`CrossingThread::level`]).
-    pub level: i32,
-    /// The distances, in threads, to the nearest thread of the same level before and after this
-    /// one. A distance is 0 if there is no such thread within 16 threads.
-    pub beside: [i32; 2],
 }
 
 /// A crossing, given by the numbers of its end and its pick, counted from 0.
@@ -64,6 +56,14 @@ impl Site {
         match set {
             Set::Warp => self.end,
             Set::Weft => self.pick,
+        }
+    }
+
+    /// The crossing at which another thread of the set takes the place of this crossing's thread.
+    pub(super) const fn with(self, set: Set, thread: usize) -> Self {
+        match set {
+            Set::Warp => Self { end: thread, ..self },
+            Set::Weft => Self { pick: thread, ..self },
         }
     }
 }
@@ -85,18 +85,10 @@ pub(super) fn rows(
     unit: f32,
     stiffest: f32,
     height: f32,
-    repeat: bool,
 ) -> Result<Vec<Row>, CrossingsError> {
     let mut rows = room("threads", threads.len())?;
     let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
-    for (number, thread) in threads.iter().enumerate() {
-        let beside = |step: i32| {
-            let is_level = |steps: &i32| {
-                let other = further(number, step * steps, threads.len(), repeat);
-                other.is_some_and(|other| threads[other].level == thread.level)
-            };
-            (1..=BESIDE_MAX.min(threads.len() as i32)).find(is_level).unwrap_or(0)
-        };
+    for thread in threads {
         let gap = thread.pitch / unit;
         let [most, share] = SIDEWAYS;
         rows.push(Row {
@@ -108,8 +100,6 @@ pub(super) fn rows(
             least_area: thread.least_area,
             freedom: most.min(share * gap.min(before)),
             height,
-            level: thread.level as i32,
-            beside: [beside(-1), beside(1)],
         });
         before = gap;
     }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use texere_core::backend::NullBackend;
 use texere_core::crossings::{
-    CrossingState, CrossingThread, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, Set,
+    CrossingState, CrossingThread, Crossings, CrossingsPass, CrossingsPlan, CrossingsRest, Level, Set,
     StraightPassage, settle,
 };
 use texere_core::{Backend, BackendError, CrossingsError};
@@ -92,22 +92,40 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// A cloth of uneven threads whose picks, or both ends and picks, lie on two or three levels.
-fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32; 2]) -> Crossings {
+/// A cloth of uneven threads whose picks, or both ends and picks, lie on two or three levels. In
+/// figured cloth the levels change by place.
+fn uneven_layers(
+    [ends, picks]: [usize; 2],
+    repeats: bool,
+    [across, along]: [u32; 2],
+    is_figured: bool,
+) -> Crossings {
     let mut seed = 14;
-    let mut threads = |count: usize, pitch: f32, levels: u32| -> Vec<CrossingThread> {
-        let thread = |number: usize| CrossingThread {
+    let mut threads = |count: usize, pitch: f32| -> Vec<CrossingThread> {
+        let thread = |_| CrossingThread {
             pitch: pitch * (1.0 + 0.2 * chance(&mut seed)),
             diameter: 0.3 * (1.0 + 0.3 * chance(&mut seed)),
             stiffness: 1.0 + 0.5 * chance(&mut seed),
-            level: number as u32 % levels,
             ..CrossingThread::new(0.0, 0.0)
         };
         (0..count).map(thread).collect()
     };
-    let (warp, weft) = (threads(ends, 0.34, across), threads(picks, 0.40, along));
+    let (warp, weft) = (threads(ends, 0.34), threads(picks, 0.40));
+    let levels = |end: usize, pick: usize| {
+        let turned = u32::from(is_figured && (end >= ends / 2) != (pick >= picks / 2));
+        [(end as u32 + turned) % across, (pick as u32 + turned) % along]
+    };
+    let level = |set: usize| {
+        let level = |number: usize| {
+            let [number, of] = [levels(number % ends, number / ends)[set], [across, along][set]];
+            // In figured cloth of three levels, binders take the place of the lowest.
+            let is_binder = is_figured && of == 3 && number == 0;
+            if is_binder { Level::BINDER } else { Level { number: number as u8, of: of as u8 } }
+        };
+        (0..ends * picks).map(level).collect()
+    };
     let mut up = |end: usize, pick: usize| {
-        let levels = [end as u32 % across, pick as u32 % along];
+        let levels = levels(end, pick);
         if across == along && levels[0] != levels[1] {
             levels[0] > levels[1]
         } else {
@@ -115,18 +133,20 @@ fn uneven_layers(ends: usize, picks: usize, repeats: bool, [across, along]: [u32
         }
     };
     let ups = (0..ends * picks).map(|number| up(number % ends, number / ends)).collect();
-    Crossings::new(ups, warp, weft).repeats(repeats, repeats)
+    Crossings::new(ups, warp, weft).levels(level(0), level(1)).repeats(repeats, repeats)
 }
 
 #[test]
 fn gradients_are_the_energys() {
     let layers = [[1, 2], [2, 2], [3, 1], [3, 3]];
-    // Each also as a piece with open edges.
-    let layered = layers.into_iter().flat_map(|levels| [true, false].map(|repeats| (levels, repeats)));
+    // Each also as a piece with open edges, and with levels that change by place.
+    let kinds = [[true, false], [false, false], [true, true]];
+    let layered = layers.into_iter().flat_map(|levels| kinds.map(|kind| (levels, kind)));
     let problems = [true, false].map(|repeats| (uneven(5, 6, repeats), [1.0, 2.4], 0..5)).into_iter().chain(
-        layered.map(|(levels, repeats)| {
+        layered.map(|(levels, [repeats, is_figured])| {
             let both = levels[0] == levels[1];
-            (uneven_layers(6, 6, repeats, levels), [0.2, 1.9], if both { 5..8 } else { 6..8 })
+            let problem = uneven_layers([6, 6], repeats, levels, is_figured);
+            (problem, [0.2, 1.9], if both { 5..8 } else { 6..8 })
         }),
     );
     for (problem, shape, wanted) in problems {
@@ -318,6 +338,16 @@ fn what_is_wrong_is_named() {
         [plain().tension(-1.0, 1.0), plain().tension(1.0, f32::NAN), plain().press(11.0), plain().passes(0)]
     {
         assert!(matches!(plan(&problem), Err(CrossingsError::Setting { .. })));
+    }
+    let single = vec![Level::SINGLE; 4];
+    let short = plan(&plain().levels(single.clone(), single[..3].to_vec())).unwrap_err();
+    assert_eq!(short, CrossingsError::Levels { set: "weft", levels: 3, crossings: 4 });
+    for (number, of) in [(1, 1), (0, 9), (1, 0)] {
+        let mut levels = single.clone();
+        levels[1] = Level { number, of };
+        let wrong = plan(&plain().levels(levels, single.clone())).unwrap_err();
+        let expected = CrossingsError::Level { set: "warp", end: 1, pick: 0, number, of, most: 8 };
+        assert_eq!(wrong, expected, "{wrong}");
     }
     let null = NullBackend::default().crossings_settler(Arc::new(CrossingsPlan::new(&plain()).unwrap()));
     assert!(matches!(null, Err(BackendError::NoCrossings { .. })));

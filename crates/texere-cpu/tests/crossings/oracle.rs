@@ -76,21 +76,23 @@ impl Sum<'_> {
         let [warp, weft] = Set::BOTH.map(|set| self.lie(site, set));
         let side = f64::from(self.plan.side(site, Set::Warp));
         let apart = side * (warp[1] - weft[1]);
-        let levels = Set::BOTH.map(|set| self.plan.rows(set)[site.thread(set)].level);
-        let mut sum = if self.plan.is_layered() && levels[0] != levels[1] {
+        // Where both sets have equally many levels, each level is a layer.
+        let [end, pick] = self.plan.neighbours(site).levels;
+        let is_layered = end.of == pick.of && end.of > 0;
+        let mut sum = if is_layered && end != pick {
             let [along_warp, along_weft] = Set::BOTH.map(|set| f64::from(STEEPER) * self.slope(site, set));
             let need = (warp[2] * along_weft).hypot(warp[3]) + (weft[2] * along_warp).hypot(weft[3]);
             self.kept_apart(apart - need, 5, kinds)
         } else {
             let room = apart - warp[3] - weft[3];
             let gap = (room - f64::from(MARGIN)).max(0.0);
-            let pull = if self.plan.is_layered() { f64::from(TOUCH) } else { 0.0 };
+            let pull = if is_layered { f64::from(TOUCH) } else { 0.0 };
             self.kept_apart(room, 0, kinds) + pull * gap * gap
         };
         for set in Set::BOTH {
             sum += self.of(site, set);
             sum += self.beside(site, set, kinds);
-            let steps = self.plan.rows(set.other())[site.thread(set.other())].beside[1];
+            let steps = i32::from(self.plan.neighbours(site).beside[set.other() as usize][1]);
             sum += self.between(site, set, 1, [1, 4], kinds);
             if steps > 1 {
                 sum += self.between(site, set, steps, [6, 6], kinds);
@@ -180,8 +182,8 @@ impl Sum<'_> {
     /// The energy of contacts between a thread and those after it: the next one of its level, and
     /// the very next one if that is of another level.
     fn beside(&self, site: Site, set: Set, kinds: &mut [u32; KINDS]) -> f64 {
-        let rows = self.plan.rows(set);
-        let of_level = rows[site.thread(set)].beside[1];
+        let of_level_at = |site: Site| i32::from(self.plan.neighbours(site).beside[set as usize][1]);
+        let of_level = of_level_at(site);
         let here = self.lie(site, set);
         let mut sum = 0.0;
         for (steps, is_level) in [(of_level, true), (1, false)] {
@@ -200,7 +202,9 @@ impl Sum<'_> {
                 self.kept_apart((clearance - 1.0) * wide, 7, kinds)
             };
             let [after, opposite] = [0, steps].map(|across| self.plan.beside(site, set, 1, across));
-            if let (Some(after), Some(opposite)) = (after, opposite) {
+            // Threads of one level with others between them are neighbours at both crossings.
+            let are_neighbours = |after: Site| steps == 1 || of_level_at(after) == steps;
+            if let (Some(after), Some(opposite)) = (after.filter(|&after| are_neighbours(after)), opposite) {
                 let (next, opposite) = (self.lie(after, set), self.lie(opposite, set));
                 let half = |of: usize| 0.5 * (other[of] + opposite[of] - here[of] - next[of]);
                 let both = |of: usize| 0.5 * (other[of] + opposite[of] + here[of] + next[of]);

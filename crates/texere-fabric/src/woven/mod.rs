@@ -9,6 +9,7 @@ mod design;
 mod draft;
 mod drawdown;
 mod error;
+mod figured;
 mod jam;
 mod layers;
 mod levels;

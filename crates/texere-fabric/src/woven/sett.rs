@@ -1,5 +1,7 @@
 //! The greatest sett of a weave and its yarns.
 
+use texere_core::crossings::Level;
+
 use super::{BySet, Thread, Woven};
 
 /// How close the threads of a set lie, and how close they may lie in their weave, in threads to the
@@ -24,7 +26,8 @@ pub struct Sett {
     pub per_cm: f64,
     /// How often a thread of the other set changes sides from one thread of this set to the next,
     /// from 0 to 1. It is 1 in plain weave and 2/n in a satin of n ends. In a cloth of several
-    /// levels, it is the mean over the levels, and only changes within each level count.
+    /// levels, it is the mean over the levels, and only changes within each level count. The
+    /// binders of an orthogonal weave count as a level.
     pub interlacings: f64,
     /// The greatest sett by the rule of ends and intersections: where a thread of the other set
     /// changes sides, it takes the room of its own diameter. Each level of a cloth has this sett,
@@ -67,7 +70,8 @@ impl Woven {
             sum / threads.len() as f64
         });
         let levels = self.interlacings();
-        let is_plain = levels.iter().all(|levels| matches!(levels[..], [Level { interlacings: 1.0, .. }]));
+        let is_plain =
+            levels.iter().all(|levels| matches!(levels[..], [LevelSett { interlacings: 1.0, .. }]));
         let pitches = [0, 1].map(|set| whole[set].1 / whole[set].0 as f64);
         BySet { warp: 0, weft: 1 }.map(|set: usize| {
             // Each level has its share of the threads.
@@ -84,44 +88,53 @@ impl Woven {
     }
 
     /// The interlacings of each level of each set: how often threads of the other set change sides
-    /// between neighbours. If both sets have equally many levels, a level of both is a layer, and
-    /// only threads within the layer count.
-    fn interlacings(&self) -> [Vec<Level>; 2] {
-        let repeat = self.repeat();
-        let levels = self.levels(repeat);
-        let counts = levels.each_ref().map(|levels| levels.iter().max().map_or(1, |highest| highest + 1));
-        let of = |set: usize, level: u32| -> Vec<usize> {
-            (0..repeat[set]).filter(|&thread| levels[set][thread] == level).collect()
-        };
-        let all = |set: usize| -> Vec<usize> { (0..repeat[set]).collect() };
-        // A single thread is its own neighbour.
+    /// between neighbours. Where both sets have equally many levels, a level of both is a layer,
+    /// and only threads within the layer count.
+    fn interlacings(&self) -> [Vec<LevelSett>; 2] {
+        let [across, along] = self.repeat();
+        let levels = self.levels([across, along]);
         let up =
             |end: usize, pick: usize| self.drawdown().up(end % self.warp().len(), pick % self.weft().len());
         [0, 1].map(|set| {
-            let level = |level: u32| {
-                let threads = of(set, level);
-                let others = if counts[0] == counts[1] { of(1 - set, level) } else { all(1 - set) };
-                let side = |thread: usize, other: usize| {
-                    if set == 0 { up(thread, other) } else { up(other, thread) }
-                };
-                let changes = |(at, &thread): (usize, &usize)| {
-                    let next = threads[(at + 1) % threads.len()];
-                    others.iter().filter(|&&other| side(thread, other) != side(next, other)).count()
-                };
-                let changes: usize = threads.iter().enumerate().map(changes).sum();
-                Level {
-                    share: threads.len() as f64 / repeat[set] as f64,
-                    interlacings: changes as f64 / (threads.len() * others.len()) as f64,
+            let highest = levels[set].iter().map(|level| level.of).fold(1, u8::max);
+            // For each level, and last for the binders, the crossings at which its threads lie in
+            // it, those of these that count, and those at which the crossed thread changes sides to
+            // the next thread.
+            let mut counts = vec![[0_u64; 3]; usize::from(highest) + 1];
+            // Where the layers of a figured cloth change places, it counts as single.
+            let counts_here = |(_, level): &(usize, &Level)| level.of != 1 || highest == 1;
+            for (number, level) in levels[set].iter().enumerate().filter(counts_here) {
+                let other = levels[1 - set][number];
+                let of = if *level == Level::BINDER { highest } else { level.number };
+                let [lying, counting, changing] = &mut counts[usize::from(of)];
+                *lying += 1;
+                if level.of == other.of && level.number != other.number {
+                    continue;
                 }
+                *counting += 1;
+                let (end, pick) = (number % across, number / across);
+                // A single thread is its own neighbour.
+                let next = |steps: usize| match set {
+                    0 => [(end + steps) % across, pick],
+                    _ => [end, (pick + steps) % along],
+                };
+                let is_level = |[end, pick]: &[usize; 2]| levels[set][pick * across + end] == *level;
+                let next = (1..=[across, along][set]).map(next).find(is_level);
+                *changing += u64::from(next.is_some_and(|[x, y]| up(x, y) != up(end, pick)));
+            }
+            let crossings = counts.iter().map(|[lying, ..]| lying).sum::<u64>() as f64;
+            let level = |[lying, counting, changing]: [u64; 3]| LevelSett {
+                share: lying as f64 / crossings,
+                interlacings: changing as f64 / counting.max(1) as f64,
             };
-            (0..counts[set]).map(level).collect()
+            counts.into_iter().filter(|[lying, ..]| *lying > 0).map(level).collect()
         })
     }
 }
 
 /// A level of a set: its share of the threads, and how often threads of the other set change sides
 /// between its neighbours.
-struct Level {
+struct LevelSett {
     share: f64,
     interlacings: f64,
 }

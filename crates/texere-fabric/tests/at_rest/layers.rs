@@ -40,19 +40,13 @@ fn weft_backed(end: usize, pick: usize) -> bool {
 
 /// A cloth whose layers have threads every `pitch` diameters.
 fn cloth(drawdown: Drawdown, pitch: f64) -> Woven {
-    let levels = drawdown.levels().map(|levels| levels.into_iter().max().unwrap_or(0) + 1);
-    let threads = |set: Set| {
+    let levels = drawdown.levels().map(|levels| levels.into_iter().map(|level| level.of).fold(1, u8::max));
+    let threads = |set: Set, count: usize| {
         let spacing = pitch * DIAMETER / f64::from(levels[set]);
-        vec![Thread::new(spacing, (DIAMETER / 2.0) as f32); THREADS]
+        vec![Thread::new(spacing, (DIAMETER / 2.0) as f32); count]
     };
-    Woven::new(
-        drawdown,
-        threads(Set::Warp),
-        threads(Set::Weft),
-        vec![Material::default()],
-        vec![Section::Circle],
-    )
-    .unwrap()
+    let [warp, weft] = [threads(Set::Warp, drawdown.ends()), threads(Set::Weft, drawdown.picks())];
+    Woven::new(drawdown, warp, weft, vec![Material::default()], vec![Section::Circle]).unwrap()
 }
 
 #[test]
@@ -110,10 +104,11 @@ fn threads_cross_as_they_are_woven(woven: &Woven, rest: &WovenRest) {
         near.unwrap()[axis]
     };
     let middles = woven.middles_mm();
-    for end in 0..THREADS {
+    let ends = woven.drawdown().ends();
+    for end in 0..ends {
         assert!(matches!(rest.yarns.layout().yarns()[end].origin, Origin::End(_)));
-        for pick in 0..THREADS {
-            let (warp, weft) = (&paths[end], &paths[THREADS + pick]);
+        for pick in 0..woven.drawdown().picks() {
+            let (warp, weft) = (&paths[end], &paths[ends + pick]);
             let x = place(warp, 0, 1, middles.weft[pick]);
             let y = place(weft, 1, 0, middles.warp[end]);
             let over = height(warp, 1, y) - height(weft, 0, x);
@@ -171,5 +166,88 @@ fn layers_rest_at_any_sett() {
             }
             threads_cross_as_they_are_woven(&woven, &rest);
         }
+    }
+}
+
+/// Two layers of one weave that change places from square to square, each `size` threads wide. A
+/// figure's outline with steps and corners is harder than a straight one.
+fn figured(weave: fn(usize, usize) -> bool, size: usize) -> Drawdown {
+    let up = |end: usize, pick: usize| {
+        let turned = !(end / size + pick / size).is_multiple_of(2);
+        let [face_end, face_pick] = [end, pick].map(|thread| thread.is_multiple_of(2) != turned);
+        if face_end == face_pick { weave(end / 2, pick / 2) } else { face_end }
+    };
+    Drawdown::from_fn(2 * size, 2 * size, up).unwrap()
+}
+
+#[test]
+fn layers_change_places() {
+    for (name, drawdown, pitches) in
+        [("plain", figured(plain, 24), &[2.6, 3.5][..]), ("twill", figured(twill, 24), &[3.5])]
+    {
+        for &pitch in pitches {
+            let woven = cloth(drawdown.clone(), pitch);
+            let rest = at_rest(&woven);
+            let surfaces = Surfaces::new(&rest.yarns);
+            let (clearance, folds) = (surfaces.clearance(), tightest(&rest.yarns));
+            println!(
+                "{name} at {pitch}: {} passes, clearance {:.3} -> {clearance:.3}, bends {folds:.2}, area {:.3} {:.3} ({:.2} {:.2}), {:.2} mm",
+                rest.crossings.passes,
+                rest.clearance[0],
+                rest.area.warp,
+                rest.area.weft,
+                rest.area_least.warp,
+                rest.area_least.weft,
+                surfaces.thickness(),
+            );
+            assert!(clearance >= 0.98, "{name} at {pitch}: {clearance}");
+            assert!(folds >= 1.0, "{name} at {pitch} folds: {folds}");
+            // Side by side, as threads of single cloth, they would lose more of their area.
+            for set in Set::BOTH {
+                assert!(rest.area[set] >= 0.9, "{name} at {pitch}: area {:?}", rest.area);
+            }
+            threads_cross_as_they_are_woven(&woven, &rest);
+        }
+    }
+}
+
+/// An orthogonal weave: picks in columns of three, two levels of stuffers that lie straight between
+/// them, and thin binders from the face to the back.
+#[test]
+fn stuffers_lie_straight() {
+    let up = |end: usize, pick: usize| match end % 3 {
+        stuffer @ (0 | 1) => pick % 3 > stuffer,
+        _ => (end / 3 + pick / 3).is_multiple_of(2),
+    };
+    let ends = (0..12).map(|end| Thread::new(1.0, if end % 3 < 2 { 0.2 } else { 0.1 })).collect();
+    let woven = Woven::new(
+        Drawdown::from_fn(12, 12, up).unwrap(),
+        ends,
+        vec![Thread::new(1.0, 0.2); 12],
+        vec![Material::default()],
+        vec![Section::Circle],
+    )
+    .unwrap();
+    let rest = at_rest(&woven);
+    let clearance = Surfaces::new(&rest.yarns).clearance();
+    assert!(clearance >= 0.98, "{clearance}");
+    threads_cross_as_they_are_woven(&woven, &rest);
+    // For each end, its mean height and its crimp.
+    let ends: Vec<[f64; 2]> = (0..12)
+        .map(|end| {
+            let points = rest.yarns.yarn_points(end).unwrap();
+            let mean = points.iter().map(|point| f64::from(point.z)).sum::<f64>() / points.len() as f64;
+            let steps = points.windows(2).map(|pair| {
+                [pair[1].x - pair[0].x, pair[1].y - pair[0].y, pair[1].z - pair[0].z].map(f64::from)
+            });
+            let length: f64 = steps.map(|[x, y, z]| x.hypot(y).hypot(z)).sum();
+            [mean, length / woven.size_mm()[1] - 1.0]
+        })
+        .collect();
+    println!("{clearance:.3}, {ends:.3?}");
+    for column in ends.chunks(3) {
+        let [[upper, crimp], [lower, other], _] = column else { unreachable!("three ends a column") };
+        assert!(upper - lower > 0.1, "{column:?}");
+        assert!(crimp.max(*other) < 0.02, "{column:?}");
     }
 }

@@ -258,12 +258,7 @@ impl ClothReport {
                 picks: woven.cloth().weft().len(),
                 jam: (!settled).then(|| JamsReport::from(woven.jam_report())),
                 setts: setts(woven.cloth()),
-                levels: woven
-                    .cloth()
-                    .drawdown()
-                    .levels()
-                    .map(|levels| 1 + levels.into_iter().max().unwrap_or(0))
-                    .into(),
+                levels: woven.cloth().level_counts().map(u32::from).into(),
             }),
             size_mm: structure.size_mm(),
             measures: MeasuresReport::new(&measures, yarns.materials()),

@@ -35,10 +35,10 @@ impl CrossingsKernels {
         memory: &Memory,
     ) -> Result<(), BackendError> {
         let value = [Arg::Value(bytes_of(params))];
-        let Memory { threads, ups, crossings, found, next, group_rows, pass_rows } = memory;
-        let args = [&value[..], &in_memory([threads, ups, found, crossings, next, group_rows])].concat();
+        let Memory { threads, sites, crossings, found, next, group_rows, pass_rows } = memory;
+        let args = [&value[..], &in_memory([threads, sites, found, crossings, next, group_rows])].concat();
         // SAFETY: the arguments are those of `crossings_move`. A lane reads the rows of both its
-        // threads, its bit of the drawdown and its crossing, and the same of the crossings near it
+        // threads, its `CrossingSite` and its crossing, and the same of the crossings near it
         // that are in the plan. It writes its crossing, and a group writes its row.
         unsafe { start(&mut self.step, opened, &args, params.crossings) }?;
         let args = [&value[..], &in_memory([group_rows, pass_rows])].concat();

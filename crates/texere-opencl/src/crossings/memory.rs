@@ -2,7 +2,7 @@
 
 use texere_core::crossings::{CrossingState, CrossingsPlan};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{CROSSINGS_PASSES, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_gpu::{CROSSINGS_PASSES, CrossingSite, CrossingsSeenRow, ThreadRow};
 use texere_kernels::CROSSINGS_MOVE;
 
 use crate::buffer::Buffer;
@@ -13,7 +13,7 @@ use crate::room::Room;
 #[derive(Debug)]
 pub(super) struct Memory {
     pub(super) threads: Buffer,
-    pub(super) ups: Buffer,
+    pub(super) sites: Buffer,
     /// The lies (states of threads at crossings) after the last pass, without momentum.
     pub(super) crossings: Buffer,
     /// Two buffers of lies with momentum added. Each pass reads one and writes the other, for the
@@ -34,7 +34,7 @@ impl Memory {
         let groups = crossings.div_ceil(CROSSINGS_MOVE.group as u64);
         Ok(Self {
             threads: room.holding(opened, "the thread table", &ThreadRow::all(plan))?,
-            ups: room.holding(opened, "the drawdown", &crossings_ups(plan))?,
+            sites: room.holding(opened, "the table of crossings", &CrossingSite::all(plan))?,
             crossings: room.zeroed(opened, "crossings", bytes)?,
             found: room.zeroed(opened, "crossings as others find them", bytes)?,
             next: room.zeroed(opened, "crossings as others will find them", bytes)?,

@@ -2,7 +2,7 @@
 
 use texere_core::crossings::{CrossingState, CrossingsPlan};
 use texere_core::{BackendError, Limits};
-use texere_gpu::{CROSSINGS_PASSES, CrossingsParams, CrossingsSeenRow, ThreadRow, crossings_ups};
+use texere_gpu::{CROSSINGS_PASSES, CrossingSite, CrossingsParams, CrossingsSeenRow, ThreadRow};
 use texere_shaders::{Resource, crossings};
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 
@@ -19,7 +19,7 @@ pub(super) struct Memory {
     /// The parameters of each pass between two waits.
     pub(super) params: wgpu::Buffer,
     threads: wgpu::Buffer,
-    ups: wgpu::Buffer,
+    sites: wgpu::Buffer,
     /// The lies (states of threads at crossings) after the last pass, without momentum.
     pub(super) crossings: wgpu::Buffer,
     /// Two buffers of lies with momentum added. Each pass reads one and writes the other, for the
@@ -42,7 +42,7 @@ impl Memory {
         Ok(Self {
             params: gpu.buffer("parameters", PARAMS_STEP * passes, uniform)?,
             threads: room.holding(gpu, "the thread table", &ThreadRow::all(plan))?,
-            ups: room.holding(gpu, "the drawdown", &crossings_ups(plan))?,
+            sites: room.holding(gpu, "the table of crossings", &CrossingSite::all(plan))?,
             crossings: room.take(gpu, "crossings", bytes)?,
             found: room.take(gpu, "crossings as others find them", bytes)?,
             next: room.take(gpu, "crossings as others will find them", bytes)?,
@@ -65,7 +65,7 @@ impl Memory {
                 }));
             }
             Resource::ThreadRows => &self.threads,
-            Resource::Ups => &self.ups,
+            Resource::Sites => &self.sites,
             Resource::FoundCrossings => found,
             Resource::Crossings => &self.crossings,
             Resource::NextCrossings => next,

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-use texere_core::crossings::{self, Crossings};
+use texere_core::crossings::{self, Crossings, Level};
 
 use super::super::thread::pitches;
 use crate::reach::Reach;
-use crate::{Drawdown, Thread, Woven};
+use crate::{BySet, Drawdown, Thread, Woven};
 
 /// The part of a cloth that comes to rest: the ends and picks after which its threads and crossings
 /// repeat. A cloth that does not repeat is its own repeat. In the problem the last threads of the
@@ -20,8 +20,8 @@ pub(super) struct Problem {
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The least area of each thread's section, as a share of its area.
     pub(super) least: [Vec<f32>; 2],
-    /// The level of each thread of the repeat among its set.
-    pub(super) levels: [Vec<u32>; 2],
+    /// The levels of end and pick at each crossing of the repeat.
+    pub(super) levels: [Vec<Level>; 2],
 }
 
 /// The area that sections keep while crossings settle, as a multiple of their least area. The rest
@@ -53,13 +53,14 @@ impl Problem {
                     firmness: threads[number % threads.len()].firmness,
                     flatness: threads[number % threads.len()].flatness,
                     least_area: (RESERVE * threads[number % threads.len()].least_area).min(1.0),
-                    level: levels[set][number],
                 }
             };
             (0..repeat[set]).map(thread).collect()
         };
+        let [warp_levels, weft_levels] = levels.clone();
         let crossings =
-            Crossings::new(ups.collect(), threads(0, cloth.warp(), &warp), threads(1, cloth.weft(), &weft));
+            Crossings::new(ups.collect(), threads(0, cloth.warp(), &warp), threads(1, cloth.weft(), &weft))
+                .levels(warp_levels, weft_levels);
         let least = [0, 1].map(|set: usize| {
             let threads = [cloth.warp(), cloth.weft()][set];
             (0..repeat[set]).map(|number| threads[number % threads.len()].least_area).collect()
@@ -79,12 +80,33 @@ fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
 }
 
 impl Woven {
-    /// Levels of the first `across` ends and of the first `along` picks, which are a repeat of the
-    /// cloth.
-    pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<u32>; 2] {
+    /// The numbers of levels on which the ends and the picks lie ([`Drawdown::levels`]). Binders
+    /// don't count.
+    ///
+    /// ```
+    /// use texere_core::{Material, Section};
+    /// use texere_fabric::{BySet, Thread, Weave, Woven};
+    /// let threads = vec![Thread::new(0.5, 0.12); 16];
+    /// let twill = Weave::parse("2/2")?.drawdown(16, 16)?;
+    /// let cloth = Woven::new(twill, threads.clone(), threads, vec![Material::default()], vec![Section::Circle])?;
+    /// assert_eq!(cloth.level_counts(), BySet { warp: 1, weft: 1 });
+    /// # Ok::<(), texere_fabric::FabricError>(())
+    /// ```
+    #[must_use]
+    pub fn level_counts(&self) -> BySet<u8> {
+        let most = |levels: Vec<Level>| levels.into_iter().map(|level| level.of).fold(1, u8::max);
+        BySet::of(self.levels(self.repeat()).map(most))
+    }
+
+    /// Levels at the crossings of the first `across` ends and the first `along` picks, which are a
+    /// repeat of the cloth.
+    pub(in crate::woven) fn levels(&self, [across, along]: [usize; 2]) -> [Vec<Level>; 2] {
         let (ends, picks) = (self.warp().len(), self.weft().len());
         Drawdown::from_fn(across, along, |end, pick| self.drawdown().up(end % ends, pick % picks))
-            .map_or_else(|_| [vec![0; across], vec![0; along]], |repeat| repeat.levels().into_array())
+            .map_or_else(
+                |_| [0; 2].map(|_| vec![Level::SINGLE; across * along]),
+                |repeat| repeat.levels().into_array(),
+            )
     }
 
     /// Numbers of ends and picks after which threads lie and cross as before. Each number is at

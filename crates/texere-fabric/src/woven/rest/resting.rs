@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use texere_contact::{Report, Watch};
 use texere_core::backend::zeroed;
-use texere_core::crossings::{CrossingState, CrossingsPlan, Set};
+use texere_core::crossings::{CrossingState, CrossingsPlan, Level, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 
 use super::path::Station;
@@ -31,9 +31,10 @@ pub(super) struct RestingRepeat {
     rooms: [Vec<[f32; 2]>; 2],
     /// The least product of half width and half height of each thread's room, mm².
     least: [Vec<f32>; 2],
-    /// The layer of each thread of the repeat, 0 for the lowest. All are 0 if warp and weft have
+    /// Which threads lie on top where an end and a pick of different layers cross: those of the
+    /// crossing's higher layer. `Equal` where both are of one layer, or where warp and weft have
     /// different numbers of levels.
-    layers: [Vec<u32>; 2],
+    layers: Vec<Ordering>,
     /// Number of control points between two crossings if a thread changes sides between them.
     change_points: usize,
     /// Tension of the yarns' splines.
@@ -69,13 +70,13 @@ impl RestingRepeat {
             .iter()
             .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
         let [warp, weft] = &problem.levels;
-        let is_single = warp.iter().chain(weft).all(|&level| level == 0);
+        let is_single = warp.iter().chain(weft).all(|&level| level == Level::SINGLE);
         let change_points = if is_single { CHANGE_POINTS } else { LAYERED_POINTS };
-        let layers = if warp.iter().max() == weft.iter().max() {
-            problem.levels
-        } else {
-            problem.repeat.map(|threads| vec![0; threads])
+        let layer = |(end, pick): (&Level, &Level)| match end.of == pick.of {
+            true => end.number.cmp(&pick.number),
+            false => Ordering::Equal,
         };
+        let layers = warp.iter().zip(weft).map(layer).collect();
         let (repeat, rooms, drawn) = (problem.repeat, problem.rooms, drawn.collect());
         Self { repeat, drawn, rooms, least, layers, change_points, rest, tension }
     }
@@ -254,8 +255,7 @@ impl<'a> Placing<'a> {
     /// Whether the two threads of a crossing of the repeat bend round one another. They do not if
     /// they belong to different layers and the thread of the higher layer lies on top.
     pub(super) fn binds(&self, number: usize) -> bool {
-        let [warp, weft] = &self.resting.layers;
-        match warp[number % warp.len()].cmp(&weft[number / warp.len()]) {
+        match self.resting.layers[number] {
             Ordering::Equal => true,
             apart => self.up(number) != apart.is_gt(),
         }

@@ -118,7 +118,10 @@ fn directions_are_decoded() {
         assert!((read.length() - 1.0).abs() < 0.00674, "{direction} has the length {}", read.length());
         assert_eq!(fourth, -9);
     }
-    assert!(most < 0.9, "{most} degrees");
+    // A direction is rounded when it is written, by half a step along both sides of the octahedron,
+    // and when it is read, by half a step along each axis. The decoder's root is an approximation
+    // that differs from processor to processor: up to 0.95 degrees were seen.
+    assert!(most < 1.0, "{most} degrees");
 }
 
 #[test]

@@ -102,12 +102,8 @@ impl Drawdown {
         // have the first thread above, and how many the second.
         let mut before = vec![[0_u32; 2]];
         before.extend((0..2 * others + NEAR[NEAR.len() - 1]).scan([0; 2], |[first, second], other| {
-            let other = other % others;
-            match [thread, (thread + 1) % count].map(|thread| self.over(set, thread, other)) {
-                [true, false] => *first += 1,
-                [false, true] => *second += 1,
-                _ => {}
-            }
+            let [one, two] = self.passing(set, [thread, (thread + 1) % count], other % others);
+            (*first, *second) = (*first + one, *second + two);
             Some([*first, *second])
         }));
         let sum = |from: usize, near: usize| [0, 1].map(|of| before[from + near][of] - before[from][of]);

@@ -123,10 +123,20 @@ impl Drawdown {
     }
 
     /// Whether a thread of `set` lies on top of a thread of the other set.
-    pub(super) fn over(&self, set: Set, thread: usize, other: usize) -> bool {
+    fn over(&self, set: Set, thread: usize, other: usize) -> bool {
         match set {
             Set::Warp => self.up(thread, other),
             Set::Weft => !self.up(other, thread),
+        }
+    }
+
+    /// How often the crossing thread `other` passes between two threads of a set: 1 or 0 with the
+    /// first of them above it and the second below, then the other way round.
+    pub(super) fn passing(&self, set: Set, threads: [usize; 2], other: usize) -> [u32; 2] {
+        match threads.map(|thread| self.over(set, thread, other)) {
+            [true, false] => [1, 0],
+            [false, true] => [0, 1],
+            _ => [0, 0],
         }
     }
 
@@ -135,14 +145,9 @@ impl Drawdown {
     fn levels_of(&self, set: Set, threads: &[usize]) -> Vec<Level> {
         let lying = |(at, &thread): (usize, &usize)| {
             let next = threads[(at + 1) % threads.len()];
-            let others = 0..self.threads(set.other());
-            Lying::of(others.fold([0; 2], |[first, second], other| {
-                match [thread, next].map(|thread| self.over(set, thread, other)) {
-                    [true, false] => [first + 1, second],
-                    [false, true] => [first, second + 1],
-                    _ => [first, second],
-                }
-            }))
+            let passing =
+                (0..self.threads(set.other())).map(|other| self.passing(set, [thread, next], other));
+            Lying::of(passing.fold([0; 2], |[first, second], [one, two]| [first + one, second + two]))
         };
         let heights = heights(&threads.iter().enumerate().map(lying).collect::<Vec<_>>());
         let of = 1 + heights.iter().max().copied().unwrap_or(0);

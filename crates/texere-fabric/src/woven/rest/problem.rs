@@ -20,8 +20,6 @@ pub(super) struct Problem {
     pub(super) rooms: [Vec<[f32; 2]>; 2],
     /// The least area of each thread's section, as a share of its area.
     pub(super) least: [Vec<f32>; 2],
-    /// The levels of end and pick at each crossing of the repeat.
-    pub(super) levels: [Vec<Level>; 2],
 }
 
 /// The area that sections keep while crossings settle, as a multiple of their least area. The rest
@@ -41,7 +39,7 @@ impl Problem {
         let ups =
             (0..across * along).map(|number| drawdown.up(number % across % ends, number / across % picks));
         let [warp, weft] = [cloth.warp(), cloth.weft()].map(gaps);
-        let levels = cloth.levels(repeat);
+        let [warp_levels, weft_levels] = cloth.levels(repeat);
         let threads = |set: usize, threads: &[Thread], gaps: &[f64]| {
             let rooms: &[[f32; 2]] = &rooms[set];
             let thread = |number: usize| {
@@ -57,7 +55,6 @@ impl Problem {
             };
             (0..repeat[set]).map(thread).collect()
         };
-        let [warp_levels, weft_levels] = levels.clone();
         let crossings =
             Crossings::new(ups.collect(), threads(0, cloth.warp(), &warp), threads(1, cloth.weft(), &weft))
                 .levels(warp_levels, weft_levels);
@@ -65,7 +62,7 @@ impl Problem {
             let threads = [cloth.warp(), cloth.weft()][set];
             (0..repeat[set]).map(|number| threads[number % threads.len()].least_area).collect()
         });
-        Self { repeat, crossings, rooms, least, levels }
+        Self { repeat, crossings, rooms, least }
     }
 }
 

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use texere_contact::{Report, Watch};
 use texere_core::backend::zeroed;
-use texere_core::crossings::{CrossingState, CrossingsPlan, Level, Set};
+use texere_core::crossings::{CrossingState, CrossingsPlan, Level, Neighbours, Set};
 use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
 
 use super::path::Station;
@@ -69,14 +69,14 @@ impl RestingRepeat {
         let drawn = rest
             .iter()
             .map(|at| Set::BOTH.map(|set| [at.thread(set).half_width, at.thread(set).half_height]));
-        let [warp, weft] = &problem.levels;
-        let is_single = warp.iter().chain(weft).all(|&level| level == Level::SINGLE);
+        let neighbours = || (0..plan.crossings()).map(|number| plan.neighbours(plan.site(number)));
+        let is_single = neighbours().all(|at| at.levels == [Level::SINGLE; 2]);
         let change_points = if is_single { CHANGE_POINTS } else { LAYERED_POINTS };
-        let layer = |(end, pick): (&Level, &Level)| match end.of == pick.of {
-            true => end.number.cmp(&pick.number),
+        let layer = |at: &Neighbours| match at.are_apart() {
+            true => at.levels[0].number.cmp(&at.levels[1].number),
             false => Ordering::Equal,
         };
-        let layers = warp.iter().zip(weft).map(layer).collect();
+        let layers = neighbours().map(layer).collect();
         let (repeat, rooms, drawn) = (problem.repeat, problem.rooms, drawn.collect());
         Self { repeat, drawn, rooms, least, layers, change_points, rest, tension }
     }

@@ -1,7 +1,8 @@
 //! The terms of the energy that keep threads clear of one another ([`super::terms`] lists them).
 
 use super::here::{HEIGHT, Here, SHIFT, THICKNESS, WIDTH};
-use super::{CrossingBlock, Set, Site, StraightPassage, ThreadState};
+use super::passage::Opening;
+use super::{CrossingBlock, Set, Site, ThreadState};
 
 /// The distance by which threads are kept apart, in units, because penalties give way a little.
 pub const MARGIN: f32 = 0.006;
@@ -24,35 +25,58 @@ pub const TOUCH: f32 = 100.0;
 /// thread is steeper because it bends where it binds.
 pub const STEEPER: f32 = 1.4;
 
-/// Adds the contact of both threads of a crossing: one lies on top of the other. Threads that bend
-/// round one another touch.
-pub(super) fn contact([warp, weft]: &[Here<'_>; 2], block: &mut CrossingBlock) {
-    let Here { plan, pass, site, .. } = *warp;
-    let [end, pick] = [warp, weft].map(|thread| thread.thread(site));
-    let side = plan.side(site, Set::Warp);
-    let apart = side * (end.height - pick.height);
-    // Threads of two layers slope where they cross. Along the slope of the other thread an ellipse
-    // reaches further.
-    let reaches = [(end, weft), (pick, warp)].map(|(lie, other)| {
-        Reach::new(lie, if plan.neighbours(site).are_apart() { STEEPER * other.steepest() } else { 0.0 })
-    });
-    let need = reaches[0].reach + reaches[1].reach;
-    block.see(apart / need);
-    let room = apart - need - MARGIN;
-    let (is_near, pull) = (room < NEAR, if plan.neighbours(site).touch() { TOUCH } else { 0.0 });
-    if is_near || pull > 0.0 {
-        let weight = if is_near { pass.penalty } else { pull };
-        let residual = if room < 0.0 { room } else { pull / weight * room };
-        let [warp, weft] = [warp.row, weft.row];
-        let slopes = [
-            (warp + HEIGHT, side),
-            (weft + HEIGHT, -side),
-            (warp + WIDTH, -reaches[0].wider),
-            (weft + WIDTH, -reaches[1].wider),
-            (warp + THICKNESS, -reaches[0].thicker),
-            (weft + THICKNESS, -reaches[1].thicker),
-        ];
-        block.add(weight, 1.0, residual, slopes);
+/// The contact of both threads of a crossing: one lies on top of the other. Threads that bend round
+/// one another touch.
+pub(super) struct Contact<'a> {
+    threads: &'a [Here<'a>; 2],
+    /// The side of the end, 1 on the face and -1 on the back.
+    side: f32,
+    /// How far the thread on top lies above the other.
+    apart: f32,
+    reaches: [Reach; 2],
+}
+
+impl<'a> Contact<'a> {
+    pub(super) fn new(threads: &'a [Here<'a>; 2]) -> Self {
+        let [warp, weft] = threads;
+        let Here { plan, site, .. } = *warp;
+        let (end, pick, side) = (warp.thread(site), weft.thread(site), plan.side(site, Set::Warp));
+        // Threads of two layers slope where they cross. Along the slope of the other thread an
+        // ellipse reaches further.
+        let is_steep = plan.neighbours(site).are_apart();
+        let reaches = [(end, weft), (pick, warp)]
+            .map(|(lie, other)| Reach::new(lie, if is_steep { STEEPER * other.steepest() } else { 0.0 }));
+        Self { threads, side, apart: side * (end.height - pick.height), reaches }
+    }
+
+    const fn need(&self) -> f32 {
+        self.reaches[0].reach + self.reaches[1].reach
+    }
+
+    /// The distance of both threads, divided by the distance that they need.
+    pub(super) const fn clearance(&self) -> f32 {
+        self.apart / self.need()
+    }
+
+    pub(super) fn add(&self, block: &mut CrossingBlock) {
+        let Self { threads: [warp, weft], side, reaches, .. } = self;
+        let Here { plan, pass, site, .. } = *warp;
+        let room = self.apart - self.need() - MARGIN;
+        let (is_near, pull) = (room < NEAR, if plan.neighbours(site).touch() { TOUCH } else { 0.0 });
+        if is_near || pull > 0.0 {
+            let weight = if is_near { pass.penalty } else { pull };
+            let residual = if room < 0.0 { room } else { pull / weight * room };
+            let [warp, weft] = [warp.row, weft.row];
+            let slopes = [
+                (warp + HEIGHT, *side),
+                (weft + HEIGHT, -side),
+                (warp + WIDTH, -reaches[0].wider),
+                (weft + WIDTH, -reaches[1].wider),
+                (warp + THICKNESS, -reaches[0].thicker),
+                (weft + THICKNESS, -reaches[1].thicker),
+            ];
+            block.add(weight, 1.0, residual, slopes);
+        }
     }
 }
 
@@ -147,7 +171,15 @@ impl Here<'_> {
         let rise = side * (two.height - one.height);
         let halves = [one, two].map(|lie| [lie.half_width, lie.half_height]);
         let thread = self.thread(first).half_height + self.thread(last).half_height;
-        let passage = StraightPassage::new(across, rise, halves, thread);
+        let opening = Opening { across, rise, halves, thread };
+        let (start, room) = opening.start();
+        // Most passages leave plenty of room at the first slope, and Newton's method finds no less.
+        // Such a passage adds no force. It is left out if it can't be the least clearance, either.
+        let is_roomy = across > 0.0 && room - MARGIN > NEAR;
+        if is_roomy && block.clearance < 1.0 + room / opening.need_most() {
+            return;
+        }
+        let passage = opening.straight(start);
         block.see(passage.clearance());
         let room = passage.room - MARGIN;
         if room < NEAR {
@@ -221,14 +253,15 @@ impl Here<'_> {
     /// have to be so at both crossings, because levels change where layers change places.
     fn half_way(&self, block: &mut CrossingBlock, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
-        let sites = [beside(along, 0), beside(0, across), beside(along, across)];
-        let [Some(next), Some(neighbour), Some(opposite)] = sites else { return };
+        let Some(next) = beside(along, 0) else { return };
+        let Some(neighbour) = beside(0, across) else { return };
+        let Some(opposite) = beside(along, across) else { return };
         let listed = self.plan.neighbours(next).beside[self.set as usize][usize::from(across > 0)];
         if across.abs() > 1 && across.abs() != i32::from(listed) {
             return;
         }
-        let lies = [self.site, next, neighbour, opposite].map(|site| *self.thread(site));
-        let [own, next, neighbour, opposite] = lies;
+        let (own, next) = (self.thread(self.site), self.thread(next));
+        let (neighbour, opposite) = (self.thread(neighbour), self.thread(opposite));
         let sign = across.signum() as f32;
         let ellipses = Ellipses {
             apart: gap + sign * 0.5 * (neighbour.shift + opposite.shift - own.shift - next.shift),
@@ -243,6 +276,10 @@ impl Here<'_> {
     /// sizes and places: 1 at the crossing, 0.5 half way to the next.
     fn keep_clear(&self, block: &mut CrossingBlock, ellipses: &Ellipses, sign: f32, part: f32) {
         let Ellipses { apart, rise, wide, thick } = *ellipses;
+        // Most neighbours have plenty of room side by side, whatever their heights.
+        if apart > wide + MARGIN + NEAR && apart > block.clearance * wide {
+            return;
+        }
         let (x, z) = (apart / wide, rise / thick);
         let clearance = (x * x + z * z).sqrt();
         block.see(clearance);

@@ -44,17 +44,60 @@ impl StraightPassage {
     /// ```
     #[must_use]
     pub fn new(across: f32, rise: f32, halves: [[f32; 2]; 2], thread: f32) -> Self {
+        let opening = Opening { across, rise, halves, thread };
+        opening.straight(opening.start().0)
+    }
+
+    /// The distance of both ellipses, divided by the distance that they and the thread need. It is
+    /// 1 if all three touch.
+    #[must_use]
+    pub fn clearance(&self) -> f32 {
+        self.between / (self.between - self.room)
+    }
+}
+
+/// The opening between two ellipses, and the thread that passes through it. The fields are the
+/// arguments of [`StraightPassage::new`].
+#[derive(Clone, Copy)]
+pub(super) struct Opening {
+    pub(super) across: f32,
+    pub(super) rise: f32,
+    pub(super) halves: [[f32; 2]; 2],
+    pub(super) thread: f32,
+}
+
+impl Opening {
+    /// The best of three slopes as cosine and sine, and the room that the slope leaves. The three
+    /// are the slope of round threads, level, and upright. Wide ellipses leave most room near level
+    /// or upright.
+    pub(super) fn start(&self) -> ([f32; 2], f32) {
+        let Self { across, rise, halves: [[a, b], [other_a, other_b]], thread } = *self;
         let distance = (across * across + rise * rise).sqrt();
-        let excess = halves.map(|[a, b]| a * a - b * b);
-        // Newton's method starts at the best of three slopes: that of round threads, level, and
-        // upright. Wide ellipses leave most room near level or upright.
-        let round = if rise > 0.0 { [rise / distance, across / distance] } else { [0.0, 1.0] };
-        let left = |[c, s]: [f32; 2]| {
-            let [first, second] = reach(c, s, halves);
-            across * s + rise * c - first - second
-        };
-        let better = |best: [f32; 2], slope: [f32; 2]| if left(slope) > left(best) { slope } else { best };
-        let [mut c, mut s] = better(better(round, [1.0, 0.0]), [0.0, 1.0]);
+        let [c, s] = if rise > 0.0 { [rise / distance, across / distance] } else { [0.0, 1.0] };
+        let [first, second] = reach(c, s, self.halves);
+        let mut best = ([c, s], across * s + rise * c - first - second);
+        let (level, upright) = (rise - b - other_b, across - a - other_a);
+        if level > best.1 {
+            best = ([1.0, 0.0], level);
+        }
+        if upright > best.1 {
+            best = ([0.0, 1.0], upright);
+        }
+        (best.0, best.1 - thread)
+    }
+
+    /// Upper bound of the distance that both ellipses and the thread need at any slope.
+    pub(super) const fn need_most(&self) -> f32 {
+        let [[a, b], [other_a, other_b]] = self.halves;
+        a.max(b) + other_a.max(other_b) + self.thread
+    }
+
+    /// The straight passage, found by Newton's method from the slope `[c, s]`.
+    pub(super) fn straight(&self, [mut c, mut s]: [f32; 2]) -> StraightPassage {
+        let Self { across, rise, halves, thread } = *self;
+        let distance = (across * across + rise * rise).sqrt();
+        let [[a, b], [other_a, other_b]] = halves;
+        let excess = [a * a - b * b, other_a * other_a - other_b * other_b];
         for _ in 0..STEPS {
             let [first, second] = reach(c, s, halves);
             let [p, q] = [excess[0] / first, excess[1] / second];
@@ -75,21 +118,12 @@ impl StraightPassage {
         }
         let reach = reach(c, s, halves);
         let between = across * s + rise * c;
-        Self { slope: [c, s], reach, between, room: between - reach[0] - reach[1] - thread }
-    }
-
-    /// The distance of both ellipses, divided by the distance that they and the thread need. It is
-    /// 1 if all three touch.
-    #[must_use]
-    pub fn clearance(&self) -> f32 {
-        self.between / (self.between - self.room)
+        StraightPassage { slope: [c, s], reach, between, room: between - reach[0] - reach[1] - thread }
     }
 }
 
 /// How far ellipses reach at right angles to a slope with cosine `c` and sine `s`.
-fn reach(c: f32, s: f32, halves: [[f32; 2]; 2]) -> [f32; 2] {
-    halves.map(|[a, b]| {
-        let (x, z) = (a * s, b * c);
-        (x * x + z * z).sqrt()
-    })
+fn reach(c: f32, s: f32, [[a, b], [other_a, other_b]]: [[f32; 2]; 2]) -> [f32; 2] {
+    let (x, z, other_x, other_z) = (a * s, b * c, other_a * s, other_b * c);
+    [(x * x + z * z).sqrt(), (other_x * other_x + other_z * other_z).sqrt()]
 }

@@ -28,7 +28,7 @@
 //! slopes by its own unknowns only, so that terms are gathered and nothing is scattered. In the
 //! energy each term counts once.
 
-use super::contacts::{MARGIN, NEAR, contact};
+use super::contacts::{Contact, MARGIN, NEAR};
 use super::here::{HEIGHT, Here, SHIFT, THICKNESS, WIDTH};
 use super::{CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Row, Set, Site};
 
@@ -73,6 +73,10 @@ impl CrossingsPlan {
         let mut block = CrossingBlock::NOTHING;
         let both =
             Set::BOTH.map(|set| Here { plan: self, pass, all: crossings, site, set, row: set.first() });
+        // The contact is seen first. Passages and neighbours that are clearer than the contact can
+        // be left out.
+        let contact = Contact::new(&both);
+        block.see(contact.clearance());
         for here in both {
             let set = here.set;
             here.own(&mut block);
@@ -93,7 +97,7 @@ impl CrossingsPlan {
                 }
             }
         }
-        contact(&both, &mut block);
+        contact.add(&mut block);
         block
     }
 }
@@ -127,13 +131,14 @@ impl Here<'_> {
         let thread = self.thread_row();
         let square = 4.0 * thread.radius * thread.radius;
         for middle in [-1, 0, 1] {
-            let sites = [middle - 1, middle, middle + 1].map(|steps| self.along(steps));
-            let [Some(before), Some(at), Some(after)] = sites else { continue };
+            let Some(before) = self.along(middle - 1) else { continue };
+            let Some(at) = self.along(middle) else { continue };
+            let Some(after) = self.along(middle + 1) else { continue };
             let pitch = 0.5 * (self.pitch(before) + self.pitch(at));
             let stiff = thread.stiffness * square * square / (pitch * pitch * pitch);
             // The slopes of a second difference are 1, -2 and 1.
             let (slope, share) = if middle == 0 { (-2.0, 2.0) } else { (1.0, 4.0) };
-            let [before, at, after] = [before, at, after].map(|site| self.thread(site));
+            let (before, at, after) = (self.thread(before), self.thread(at), self.thread(after));
             let bend = before.height - 2.0 * at.height + after.height;
             block.add(BEND * stiff, share, bend, [(self.row + HEIGHT, slope)]);
             let bend = before.shift - 2.0 * at.shift + after.shift;

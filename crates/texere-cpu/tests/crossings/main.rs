@@ -6,6 +6,7 @@
 mod cloths;
 mod measure;
 mod oracle;
+mod seen;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -58,6 +58,7 @@ impl<'a> Contact<'a> {
         self.apart / self.need()
     }
 
+    /// Adds the contact's term, if both threads are near or touch.
     pub(super) fn add(&self, block: &mut CrossingBlock) {
         let Self { threads: [warp, weft], side, reaches, .. } = self;
         let Here { plan, pass, site, .. } = *warp;

@@ -25,7 +25,7 @@ fn lie(plan: &CrossingsPlan, all: &[CrossingState], site: Site, set: Set) -> [f6
     [lie.shift, lie.height, lie.half_width, lie.half_height].map(f64::from)
 }
 
-fn further(plan: &CrossingsPlan, site: Site, set: Set, along: i32, across: i32) -> Site {
+pub(crate) fn further(plan: &CrossingsPlan, site: Site, set: Set, along: i32, across: i32) -> Site {
     plan.beside(site, set, along, across).unwrap()
 }
 

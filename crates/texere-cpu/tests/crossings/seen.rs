@@ -5,6 +5,7 @@ use texere_core::crossings::{
 };
 
 use crate::chance;
+use crate::measure::further;
 
 /// The clearances of plain weave, kind by kind: of crossings, passages, neighbours at crossings,
 /// and neighbours half way.
@@ -13,10 +14,8 @@ fn clearances(plan: &CrossingsPlan, all: &[CrossingState]) -> [f32; 4] {
     for number in 0..all.len() {
         for set in Set::BOTH {
             let (site, crossed) = (plan.site(number), set.other());
-            let at =
-                |along: i32, across: i32| all[plan.number(plan.beside(site, set, along, across).unwrap())];
-            let [here, next, beside, opposite] =
-                [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[along, across]| at(along, across));
+            let [here, next, beside, opposite] = [[0, 0], [1, 0], [0, 1], [1, 1]]
+                .map(|[along, across]| all[plan.number(further(plan, site, set, along, across))]);
             let side = plan.side(site, set);
             let (own, over, last) = (here.thread(set), here.thread(crossed), next.thread(crossed));
             let contact = side * (own.height - over.height) / (own.half_height + over.half_height);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use libtest_mimic::Failed;
 use texere_core::backend::{LiveMesh, Plan, SessionError};
 use texere_core::crossings::{CrossingThread, Crossings, CrossingsPlan};
+use texere_core::relaxation::{Elastic, Relaxation, RelaxationPlan};
 use texere_core::{Backend, BackendError, Pipeline, PipelineError, Settings, Yarn};
 
 use crate::{cases, rest};
@@ -24,6 +25,11 @@ pub(crate) fn claims_hold(device: &dyn Backend) -> Result<(), Failed> {
     holds("settle", can.settle, device.settler(rest::settling_plan(start)), refused)?;
     let refused = |error: &BackendError| matches!(error, BackendError::NoCrossings { .. });
     holds("settle_crossings", can.settle_crossings, device.crossings_settler(Arc::new(plain)), refused)?;
+    let yarn = Elastic { bending: 0.01, core: 0.1, shell: 0.2, compression: 0.001, extension: 20.0 };
+    let elastic = vec![yarn; yarns.layout().yarns().len()];
+    let relaxation = RelaxationPlan::new(&Relaxation::new(&yarns, &elastic))?;
+    let refused = |error: &BackendError| matches!(error, BackendError::NoRelaxation { .. });
+    holds("relax", can.relax, device.relaxer(Arc::new(relaxation)), refused)?;
     let refused = |error: &SessionError| matches!(error, SessionError::Backend(BackendError::NoEditing));
     holds("edit", can.edit, LiveMesh::new(device, plan), refused)?;
     let refused = |error: &PipelineError| matches!(error, PipelineError::Backend(BackendError::NoAttributes));
@@ -76,7 +82,8 @@ mod tests {
         let serial = SerialBackend::new();
         claims_hold(&serial).unwrap();
         claims_hold(&NullBackend::default()).unwrap();
-        let honest = Capabilities { settle: false, settle_crossings: false, ..serial.info().can };
+        let honest =
+            Capabilities { settle: false, settle_crossings: false, relax: false, ..serial.info().can };
         let says = |can| {
             let info = DeviceInfo { can, ..serial.info().clone() };
             claims_hold(&Boasting(info, Box::new(SerialBackend::new())))
@@ -85,6 +92,7 @@ mod tests {
         for (what, can) in [
             ("settle", Capabilities { settle: true, ..honest }),
             ("settle_crossings", Capabilities { settle_crossings: true, ..honest }),
+            ("relax", Capabilities { relax: true, ..honest }),
             ("edit", Capabilities { edit: false, ..honest }),
             ("attributes", Capabilities { attributes: false, ..honest }),
             ("pack", Capabilities { pack: false, ..honest }),

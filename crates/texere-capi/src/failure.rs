@@ -128,6 +128,7 @@ fn of_mesh(error: &(dyn Error + 'static)) -> Option<texere_status> {
             BackendError::NoFeature { .. }
             | BackendError::NoSettling { .. }
             | BackendError::NoCrossings { .. }
+            | BackendError::NoRelaxation { .. }
             | BackendError::NoAttributes
             | BackendError::NoPacking
             | BackendError::NoEditing

@@ -55,11 +55,12 @@ pub(crate) fn run(args: &DevicesArgs) -> Result<(), Fail> {
 
 /// The names of the capabilities that a device may have besides making meshes, each with whether
 /// this device has it.
-const fn can(can: Capabilities) -> [(&'static str, bool); 6] {
-    let Capabilities { settle, settle_crossings, edit, attributes, pack, draw } = can;
+const fn can(can: Capabilities) -> [(&'static str, bool); 7] {
+    let Capabilities { settle, settle_crossings, relax, edit, attributes, pack, draw } = can;
     [
         ("settle", settle),
         ("settle_crossings", settle_crossings),
+        ("relax", relax),
         ("edit", edit),
         ("attributes", attributes),
         ("pack", pack),

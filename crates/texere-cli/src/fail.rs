@@ -71,7 +71,9 @@ impl Fail {
     pub(crate) fn no_course() -> Self {
         Self {
             code: USAGE,
-            source: "--settling-plot is for knits: woven cloth comes to rest by its crossings".into(),
+            source:
+                "--settling-plot is for knits that come to rest by contact: other cloth has no passes to plot"
+                    .into(),
         }
     }
 

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use crate::Limits;
 use crate::backend::{Engine, Plan};
 use crate::crossings::{CrossingsPlan, CrossingsSettler};
+use crate::relaxation::{RelaxationPlan, Relaxer};
 use crate::settling::{Settler, SettlingPlan};
 
 pub use self::error::BackendError;
@@ -87,6 +88,9 @@ pub struct Capabilities {
     /// Whether woven cloth can be settled by its crossings with [`Backend::crossings_settler`]. If
     /// not, the call fails with [`BackendError::NoCrossings`].
     pub settle_crossings: bool,
+    /// Whether yarns can be relaxed with [`Backend::relaxer`]. If not, the call fails with
+    /// [`BackendError::NoRelaxation`].
+    pub relax: bool,
     /// Whether a mesh can stay on the device and be edited there, as a
     /// [`LiveMesh`](crate::backend::LiveMesh). If not, opening one fails with
     /// [`BackendError::NoEditing`].
@@ -158,6 +162,15 @@ pub trait Backend: fmt::Debug + Send + Sync {
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
         let _ = plan;
         Err(BackendError::NoCrossings { name: self.info().name.clone() })
+    }
+
+    /// Opens a relaxer for a plan. The relaxer owns all the device memory that its work needs.
+    ///
+    /// **Errors**: [`BackendError::NoRelaxation`] if the backend has no relaxer, and any other
+    /// [`BackendError`] if memory is short or the device fails.
+    fn relaxer(&self, plan: Arc<RelaxationPlan>) -> Result<Box<dyn Relaxer>, BackendError> {
+        let _ = plan;
+        Err(BackendError::NoRelaxation { name: self.info().name.clone() })
     }
 }
 

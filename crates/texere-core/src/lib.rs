@@ -16,7 +16,7 @@
 //! | the root | types for programs: yarns, settings, pipelines, meshes, devices, errors |
 //! | [`definitions`] | the geometry that all backends share: the spline, rolls, rings |
 //! | [`mod@backend`] | types to write a backend with: plans, chunks, engines, sessions |
-//! | [`settling`], [`crossings`] | how yarns come to rest, with the traits of a device that settles |
+//! | [`settling`], [`crossings`], [`relaxation`] | how yarns come to rest, with the traits of a device that settles or relaxes |
 //!
 //! Lengths are in mm, and angles in radians unless a name says turns. x runs along the weft or
 //! course, y along the warp or wale, and z out of the technical face. The axes are right-handed.
@@ -51,6 +51,7 @@ mod place;
 mod plan;
 mod point;
 mod ray;
+pub mod relaxation;
 mod ring;
 mod sampling;
 mod section;
@@ -86,6 +87,7 @@ pub use place::YarnPlace;
 pub use plan::{Bounds, Cap, Counts, Limits, MeshPlace, PlanError, RINGS_MAX, Settings, YARN_RINGS_MAX};
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
 pub use ray::Ray;
+pub use relaxation::error::RelaxationError;
 pub use section::{Section, SectionError, SectionPoint};
 pub use settling::error::SettlingError;
 pub use subject::Subject;

@@ -1,7 +1,7 @@
 //! Subjects of errors: the property of a cloth that an error is about. With the subject, readers of
 //! designs can name the line that sets the property.
 
-use crate::{BackendError, BoundaryError, CrossingsError, Origin, SettlingError, YarnError};
+use crate::{BackendError, BoundaryError, CrossingsError, Origin, RelaxationError, SettlingError, YarnError};
 
 /// The property of a cloth that an error is about, in a designer's words. Numbers are counted from
 /// 1.
@@ -66,6 +66,8 @@ pub enum Subject {
     RunIn(usize),
     /// The Jacquard of a guide bar.
     Jacquard(usize),
+    /// How a knit comes to rest: by contact or by its energy.
+    Rest,
     /// The length that settling gives yarns.
     Length,
     /// The tension that draws yarns in while they settle.
@@ -104,6 +106,23 @@ impl SettlingError {
                 "the gap between the plates" => Subject::Press,
                 _ => return None,
             },
+        })
+    }
+}
+
+impl RelaxationError {
+    /// The property of the cloth that the error is about. `None` for memory, settings that no
+    /// design has, and calls that don't fit the yarns.
+    #[must_use]
+    pub fn subject(&self) -> Option<Subject> {
+        Some(match self {
+            Self::OutOfMemory(_) | Self::Pinned { .. } | Self::ElasticCount { .. } => return None,
+            Self::Boundary(error) => return error.subject(),
+            Self::Elastic { .. } => Subject::Thickness(Origin::Unknown),
+            Self::Interval { .. } => Subject::Loops,
+            Self::TooFewPoints { .. } | Self::TooMany { .. } => Subject::Size,
+            Self::Setting { setting: "the length", .. } => Subject::Length,
+            Self::Setting { .. } => return None,
         })
     }
 }
@@ -198,6 +217,7 @@ impl BackendError {
             | Self::NoEditing
             | Self::NoSettling { .. }
             | Self::NoCrossings { .. }
+            | Self::NoRelaxation { .. }
             | Self::OutOfMemory(_)
             | Self::DeviceLost { .. }
             | Self::Unsupported { .. }

@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use texere_core::backend::{Engine, Plan, Schedule};
 use texere_core::crossings::{CrossingsPlan, CrossingsSettler};
+use texere_core::relaxation::{RelaxationPlan, Relaxer};
 use texere_core::settling::{Settler, SettlingPlan};
 use texere_core::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind, Limits};
 
 use crate::crossings::CrossingsMemory;
 use crate::engine::CpuEngine;
-use crate::parallel::{Parallel, ParallelCrossings, ParallelSettler};
-use crate::serial::{Serial, SerialCrossings, SerialSettler};
+use crate::parallel::{Parallel, ParallelCrossings, ParallelRelaxer, ParallelSettler};
+use crate::relaxation::RelaxationMemory;
+use crate::serial::{Serial, SerialCrossings, SerialRelaxer, SerialSettler};
 
 /// The reference backend: one thread makes one yarn after the other.
 #[derive(Debug)]
@@ -41,6 +43,7 @@ fn info(name: &str, schedule: Schedule, threads: usize) -> DeviceInfo {
         can: Capabilities {
             settle: true,
             settle_crossings: true,
+            relax: true,
             edit: true,
             attributes: true,
             pack: true,
@@ -119,6 +122,10 @@ impl Backend for SerialBackend {
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
         Ok(Box::new(SerialCrossings(CrossingsMemory::new(plan)?)))
     }
+
+    fn relaxer(&self, plan: Arc<RelaxationPlan>) -> Result<Box<dyn Relaxer>, BackendError> {
+        Ok(Box::new(SerialRelaxer(RelaxationMemory::new(plan)?)))
+    }
 }
 
 impl Backend for ParallelBackend {
@@ -136,5 +143,9 @@ impl Backend for ParallelBackend {
 
     fn crossings_settler(&self, plan: Arc<CrossingsPlan>) -> Result<Box<dyn CrossingsSettler>, BackendError> {
         Ok(Box::new(ParallelCrossings(CrossingsMemory::new(plan)?)))
+    }
+
+    fn relaxer(&self, plan: Arc<RelaxationPlan>) -> Result<Box<dyn Relaxer>, BackendError> {
+        Ok(Box::new(ParallelRelaxer(RelaxationMemory::new(plan)?)))
     }
 }

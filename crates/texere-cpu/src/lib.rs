@@ -29,6 +29,7 @@ mod packed;
 mod pages;
 mod parallel;
 mod pick;
+mod relaxation;
 mod rolls;
 mod serial;
 

@@ -9,8 +9,8 @@ use crate::measures::size_mm;
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, Stretch, WovenDesign,
-    settle,
+    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, RestBy, Stretch,
+    WovenDesign, settle,
 };
 
 /// How the yarns of a fabric interlace, for any kind of fabric.
@@ -136,8 +136,9 @@ impl Structure {
 
     /// Lets the fabric come to rest: woven cloth by its crossings
     /// ([`Woven::at_rest`](crate::Woven::at_rest)), knits by contact ([`Knitted::settle`],
-    /// [`WarpKnitted::settle`]), and other yarns, too ([`settle`]). `tension` is the tension of all
-    /// yarns' splines, from 0 to below 1.
+    /// [`WarpKnitted::settle`]) or by their energy ([`Knitted::relax`], [`WarpKnitted::relax`]),
+    /// and other yarns by contact ([`settle`]). `tension` is the tension of all yarns' splines,
+    /// from 0 to below 1.
     ///
     /// **Errors**: the errors of the method that is called. Woven cloth also gives
     /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
@@ -169,12 +170,34 @@ impl Structure {
             Self::Woven(design) => {
                 design.cloth().at_rest(finish, tension, backend, progress).map(Finished::Woven)
             }
+            Self::Weft(knit) if finish.by == RestBy::Energy => {
+                knit.relax(finish, tension, backend, progress).map(Finished::Relaxed)
+            }
+            Self::Warp(knit) if finish.by == RestBy::Energy => {
+                knit.relax(finish, tension, backend, progress).map(Finished::Relaxed)
+            }
+            Self::Yarns(_) if finish.by == RestBy::Energy => {
+                Err(FinishError::NoEnergy { cloth: "these are yarns of no structure" })
+            }
             Self::Weft(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
             Self::Warp(knit) => knit.settle(finish, tension, backend, progress).map(Finished::Knit),
             Self::Yarns(piece) => {
                 let yarns = piece.yarns.clone().with_tension(tension).map_err(FabricError::from)?;
                 settle(&Piece { yarns, ..piece.clone() }, finish, backend, progress).map(Finished::Knit)
             }
+        }
+    }
+
+    /// The fabric with the gauge that its yarns have at rest, and with the lengths of its loops or
+    /// its run-ins. Only knits that came to rest by their energy have another gauge than before.
+    #[must_use]
+    pub fn at_rest_as(self, finished: &Finished) -> Self {
+        match (self, finished) {
+            (Self::Weft(knit), Finished::Relaxed(relaxed)) => Self::Weft(knit.with_gauge(relaxed.gauge)),
+            (Self::Warp(knit), Finished::Relaxed(relaxed)) => {
+                Self::Warp(knit.at_rest(relaxed.gauge, &relaxed.yarns))
+            }
+            (fabric, _) => fabric,
         }
     }
 

@@ -125,6 +125,8 @@ impl FinishError {
         match self {
             Self::Fabric(error) => error.subject(),
             Self::Settling(error) | Self::Thread { source: error, .. } => error.subject(),
+            Self::Relaxation(error) => error.subject(),
+            Self::NoEnergy { .. } => Some(Subject::Rest),
             Self::Crossings(error) => error.subject(),
             Self::Backend(error) => error.subject(),
             Self::Woven { asked: "a length" } => Some(Subject::Length),

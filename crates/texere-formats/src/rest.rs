@@ -64,7 +64,8 @@ impl RestReport {
 
 impl Cloth {
     /// The design. After a stretch its structure is the stretched one, [`Design::stretch`] is none,
-    /// and [`Design::finish`] has the tensions that hold the stretch.
+    /// and [`Design::finish`] has the tensions that hold the stretch. A knit at rest by its energy
+    /// has the gauge that follows.
     #[must_use]
     pub const fn design(&self) -> &Design {
         &self.design
@@ -219,7 +220,14 @@ impl<'a> Resting<'a> {
         }
         let on = |share| progress(done + (1.0 - done) * share);
         let report = match design.structure.settle(&design.finish, tension, device, on) {
-            Ok(finished) => RestReport::Finished(finished),
+            Ok(finished) => {
+                design.structure = design.structure.at_rest_as(&finished);
+                if let Finished::Relaxed(_) = finished {
+                    // The structure now says how long its loops are.
+                    design.finish.length = None;
+                }
+                RestReport::Finished(finished)
+            }
             Err(FinishError::Crossings(error)) if !matches!(error, CrossingsError::OutOfMemory(_)) => {
                 RestReport::Refused { yarns: design.placed_yarns(tension)?, reason: design.refused(error) }
             }

@@ -4,7 +4,7 @@
 use texere_core::Section;
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{BySet, Crimp, Finish, JamReport, Shape, Stretch, Woven};
+use texere_fabric::{BySet, Crimp, Finish, JamReport, RestBy, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
 const DENIM: &str = r##"name = "Denim"
@@ -150,6 +150,11 @@ fn yarns_settle_as_the_finish_table_says() {
     let tension = of(Length::Free { tension: 0.05 });
     assert_eq!(finished(JERSEY, &format!("{free}tension = 0.05\n")).1, tension);
     assert_eq!(finished(JERSEY, "length = 1.25\n").1, of(Length::Given(1.25)));
+    let energy = Finish { by: RestBy::Energy, ..Finish::default() };
+    assert_eq!(finished(JERSEY, "rest = \"energy\"\n"), (true, energy));
+    assert_eq!(finished(JERSEY, "rest = \"clear\"\n"), (true, Finish::default()));
+    let long = Finish { length: Some(Length::Given(1.25)), ..energy };
+    assert_eq!(finished(JERSEY, "rest = \"energy\"\nlength = 1.25\n").1, long);
     assert_eq!(finished(JERSEY, "length = 2\n").1, of(Length::Given(2.0)));
     let woven = Finish { taut: BySet { warp: 3.0, weft: 0.5 }, calender: 2.0, ..Finish::default() };
     assert_eq!(finished(DENIM, "warp_tension = 3\nweft_tension = 0.5\ncalender = 2\n"), (true, woven));
@@ -181,6 +186,11 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
     let free = "length = \"free\"\n";
     refused(JERSEY, &format!("{free}tension = 0.2\n"), &["line 8", "finish.tension", "0.2", "0.1"]);
     refused(JERSEY, "tension = 0.05\n", &["line 7", "finish.tension", "without finish.length = \"free\""]);
+    let energy = "rest = \"energy\"\n";
+    refused(JERSEY, "rest = \"well\"\n", &["line 7", "finish.rest", "well", "\"clear\" or \"energy\""]);
+    refused(JERSEY, &format!("{energy}{free}"), &["line 8", "finish.length", "free", "\"clear\""]);
+    refused(JERSEY, &format!("{energy}press = 1.0\n"), &["line 8", "finish.press", "only with", "\"clear\""]);
+    refused(DENIM, energy, &["line 20", "finish.rest", "only in a knit"]);
     refused(DENIM, "presses = 1.0\n", &["line 20", "presses", "press"]);
     refused(DENIM, "calender = 11\n", &["line 20", "finish.calender", "11", "0", "10"]);
     refused(DENIM, "warp_tension = \"high\"\n", &["line 20", "finish.warp_tension", "high", "a number"]);

@@ -45,6 +45,37 @@ fn cloth_has_the_tension_that_is_asked_for() {
     }
 }
 
+/// A knit at rest by its energy has the gauge that its yarns have found. Written as a design file
+/// and read again, it rests as the cloth that it was, though control points now start elsewhere
+/// along the loops. Rib, which is soft, gets 4 % wider.
+#[test]
+fn a_knit_finds_its_gauge_and_keeps_it() {
+    let device = ParallelBackend::open().unwrap();
+    let rib = JERSEY.replace("\"k\"", "\"kp\"");
+    let locknit =
+        TRICOT.replace("\"tricot\"", "\"1-0/2-3//\"") + "[[warp_knit.bars]]\nlapping = \"1-2/1-0//\"\n";
+    for text in [JERSEY, &rib, &locknit] {
+        let asked = design(&format!("finish.rest = \"energy\"\n{text}"));
+        let placed = asked.structure.size_mm();
+        let cloth = asked.rest(&device).run().unwrap();
+        let found = cloth.design().structure.size_mm();
+        let moved = |axis: usize| (found[axis] / placed[axis] - 1.0).abs();
+        assert!(moved(0).max(moved(1)) > 0.02, "{found:?} {placed:?}");
+        #[cfg(feature = "serde")]
+        {
+            let report = texere_formats::SettlingReport::new(&cloth, "cpu").unwrap().to_string();
+            assert!(report.contains("by energy after") && report.contains("linking unchanged"), "{report}");
+        }
+        let mut written = Vec::new();
+        texere_formats::write::toml_to(cloth.design(), &mut written).unwrap();
+        let written = String::from_utf8(written).unwrap();
+        let again = design(&written).rest(&device).run().unwrap().design().structure.size_mm();
+        for axis in 0..2 {
+            assert!((again[axis] / found[axis] - 1.0).abs() < 0.05, "{again:?} {found:?} {written}");
+        }
+    }
+}
+
 #[test]
 fn a_tension_out_of_range_is_refused() {
     let device = ParallelBackend::open().unwrap();

@@ -32,7 +32,15 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
 #[must_use]
 pub const fn capabilities(schedule: Schedule, draw: bool) -> Capabilities {
     let ours = matches!(schedule, Schedule::PerRing);
-    Capabilities { settle: true, settle_crossings: true, edit: ours, attributes: ours, pack: ours, draw }
+    Capabilities {
+        settle: true,
+        settle_crossings: true,
+        relax: false,
+        edit: ours,
+        attributes: ours,
+        pack: ours,
+        draw,
+    }
 }
 
 /// The error for [`Schedule::Serial`], which no GPU has. `name` is the device's name.

@@ -13,7 +13,7 @@ use eframe::egui;
 use texere::mesh::Undersampled;
 use texere::picture::{Camera, Quality, RenderError, Renderer, Scene};
 use texere::read::Refusal;
-use texere::rest::{FinishError, RestReport};
+use texere::rest::{FinishError, RestBy, RestReport};
 use texere::write::Output;
 use texere::{Backend, Design, Settings, Structure, Yarns};
 
@@ -261,6 +261,10 @@ impl Workshop {
             Some(device) => device,
             None => settler.insert(texere::open(&view.device).map_err(FinishError::from)?),
         };
+        // Rest by energy is worked out on the CPU if the device can't.
+        let relaxes = design.finish.by == RestBy::Energy && !device.info().can.relax;
+        let cpu = relaxes.then(|| texere::open("cpu")).transpose().map_err(FinishError::from)?;
+        let device: &dyn Backend = cpu.as_deref().unwrap_or(&**device);
         // The closure owns the references, because a receiver can be sent to other threads but not
         // shared with them.
         let progress = move |share| {
@@ -275,7 +279,7 @@ impl Workshop {
                 ControlFlow::Continue(())
             }
         };
-        design.rest(&**device).tension(view.tension).progress(progress).run()
+        design.rest(device).tension(view.tension).progress(progress).run()
     }
 
     /// Shows other yarns, in the colours that were chosen.

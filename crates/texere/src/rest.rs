@@ -7,6 +7,7 @@
 //! |---|---|
 //! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Length`], [`Press`] |
 //! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
+//! | let a knit find its own gauge, by the least energy of bending and contact | [`RestBy::Energy`], [`RelaxedKnit`], [`Energy`] |
 //! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
 //! | settle one repeat, and copy it | [`Repeat`] |
 //!
@@ -26,9 +27,11 @@
 //! # }
 //! ```
 
+pub use texere_core::relaxation::Energy;
 pub use texere_core::settling::Length;
-pub use texere_core::{CrossingsError, SettlingError, Subject};
+pub use texere_core::{CrossingsError, RelaxationError, SettlingError, Subject};
 pub use texere_fabric::{
-    Finish, FinishError, Finished, Piece, Press, Repeat, Settled, Verdict, WovenRest, settle,
+    Finish, FinishError, Finished, Piece, Press, RelaxedKnit, Repeat, RestBy, Settled, Verdict, WovenRest,
+    settle,
 };
 pub use texere_formats::{RestReport, Resting};

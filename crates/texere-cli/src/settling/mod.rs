@@ -5,7 +5,7 @@ mod plot;
 use std::ops::Deref;
 
 use texere::check::SettlingReport;
-use texere::rest::{Finished, RestReport};
+use texere::rest::{Finished, RestBy, RestReport};
 use texere::write::Output;
 use texere::{Backend, BackendError, Cloth, Design};
 
@@ -28,15 +28,20 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
             None => Ok((design.placed(tension)?, None)),
         };
     }
-    if args.settling_plot.is_some() && design.structure.woven().is_some() {
+    let is_plotted = design.structure.woven().is_none() && design.finish.by == RestBy::Contact;
+    if args.settling_plot.is_some() && !is_plotted {
         return Err(Fail::no_course());
     }
     let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
     output.iter().try_for_each(Output::check)?;
-    let device = drivers::quietly(open)?;
+    let given = drivers::quietly(open)?;
+    // Rest by energy is worked out on the CPU if the device can't.
+    let relaxes = design.finish.by == RestBy::Energy && !given.info().can.relax;
+    let cpu = relaxes.then(|| texere::open("cpu")).transpose()?;
+    let device: &dyn Backend = cpu.as_deref().unwrap_or(&*given);
     (design.settle, design.finish.record) = (true, output.is_some());
     let cloth = progress::during("settling", |bar| {
-        design.rest(&*device).tension(tension).progress(progress::share(bar)).run()
+        design.rest(device).tension(tension).progress(progress::share(bar)).run()
     })?;
     if let (Some(output), RestReport::Finished(Finished::Knit(settled))) = (output, cloth.report()) {
         texere::write::file(plot(&settled.course).as_bytes(), output)?;

@@ -57,6 +57,12 @@ pub enum BackendError {
         /// The backend's name.
         name: String,
     },
+    /// The backend can't relax yarns.
+    #[error("{name} can't relax yarns by their energy")]
+    NoRelaxation {
+        /// The backend's name.
+        name: String,
+    },
     /// An allocation failed.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),

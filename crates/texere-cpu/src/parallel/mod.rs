@@ -15,6 +15,7 @@ mod mesh;
 mod packed;
 mod planar;
 mod portable;
+mod relaxation;
 mod rings;
 mod runs;
 mod scan;
@@ -37,6 +38,7 @@ use crate::engine::{Executor, Work};
 use crate::rolls::Rolls;
 pub(crate) use crossings::ParallelCrossings;
 use instruction_set::InstructionSet;
+pub(crate) use relaxation::ParallelRelaxer;
 pub(crate) use settling::ParallelSettler;
 
 /// The executor of all cores, with one set of vector instructions.

@@ -5,11 +5,13 @@ mod attributes;
 mod crossings;
 mod mesh;
 mod packed;
+mod relaxation;
 mod scan;
 mod settling;
 mod trajectory;
 
 pub(crate) use crossings::SerialCrossings;
+pub(crate) use relaxation::SerialRelaxer;
 pub(crate) use scan::scan_yarn;
 pub(crate) use settling::SerialSettler;
 pub(crate) use trajectory::rings;

@@ -5,7 +5,7 @@ use std::fmt;
 use texere_contact::{CLEAR, Clearance};
 use texere_core::settling::Length;
 
-use crate::{Finished, Settled, WovenRest};
+use crate::{Finished, RelaxedKnit, Settled, WovenRest};
 
 /// Share by which the length of a yarn's interval may differ from the length that it should have.
 /// Settling itself aims for this share.
@@ -46,6 +46,7 @@ impl Finished {
     pub fn verdict(&self) -> Verdict {
         match self {
             Self::Knit(settled) => settled.verdict(),
+            Self::Relaxed(relaxed) => relaxed.verdict(),
             Self::Woven(rest) => rest.verdict(),
         }
     }
@@ -69,6 +70,20 @@ impl Settled {
             None if self.is_linked() && keeps_lengths && is_clear(*min, *curvature_min) => Verdict::AtRest,
             _ if self.is_linked() && self.rest.block_passes > 0 => Verdict::Jammed,
             _ => Verdict::NotAtRest,
+        }
+    }
+}
+
+impl RelaxedKnit {
+    /// The verdict: forces balance, and surfaces as they are drawn neither pierce nor fold.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let Clearance { min, curvature_min, crowd, .. } = &self.clearance;
+        let rests = self.balanced && self.is_linked();
+        if rests && crowd.is_none() && is_clear(*min, *curvature_min) {
+            Verdict::AtRest
+        } else {
+            Verdict::NotAtRest
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What can go wrong while yarns settle.
 
 use texere_contact::ContactError;
-use texere_core::{BackendError, CrossingsError, Origin, OutOfMemory, SettlingError};
+use texere_core::{BackendError, CrossingsError, Origin, OutOfMemory, RelaxationError, SettlingError};
 use thiserror::Error;
 
 use crate::FabricError;
@@ -24,6 +24,15 @@ pub enum FinishError {
         thread: Origin,
         /// The reason.
         source: SettlingError,
+    },
+    /// Yarns that can't be relaxed as asked.
+    #[error(transparent)]
+    Relaxation(#[from] RelaxationError),
+    /// A cloth that can't come to rest by its energy.
+    #[error("rest by energy is for knits that repeat: {cloth}")]
+    NoEnergy {
+        /// What the cloth is instead.
+        cloth: &'static str,
     },
     /// A request for woven cloth that only knits can meet.
     #[error("woven cloth comes to rest by its crossings: {asked} is for knits")]

@@ -3,7 +3,7 @@
 use texere_core::Yarns;
 
 use super::Settled;
-use crate::{FabricWarning, WovenRest};
+use crate::{FabricWarning, RelaxedKnit, WovenRest};
 
 /// A fabric at rest, or as near to rest as it came: see
 /// [`Structure::settle`](crate::Structure::settle).
@@ -13,6 +13,8 @@ use crate::{FabricWarning, WovenRest};
 pub enum Finished {
     /// A knit, or yarns that no structure made, settled by contact.
     Knit(Settled),
+    /// A knit at rest by its energy.
+    Relaxed(RelaxedKnit),
     /// Woven cloth, settled by its crossings.
     Woven(WovenRest),
 }
@@ -23,6 +25,7 @@ impl Finished {
     pub const fn yarns(&self) -> &Yarns {
         match self {
             Self::Knit(settled) => &settled.yarns,
+            Self::Relaxed(relaxed) => &relaxed.yarns,
             Self::Woven(rest) => &rest.yarns,
         }
     }
@@ -32,6 +35,7 @@ impl Finished {
     pub fn into_yarns(self) -> Yarns {
         match self {
             Self::Knit(settled) => settled.yarns,
+            Self::Relaxed(relaxed) => relaxed.yarns,
             Self::Woven(rest) => rest.yarns,
         }
     }
@@ -41,7 +45,7 @@ impl Finished {
     pub fn warnings(&self) -> Vec<FabricWarning> {
         let press = match self {
             Self::Knit(settled) => settled.press,
-            Self::Woven(_) => None,
+            Self::Relaxed(_) | Self::Woven(_) => None,
         };
         press.and_then(|press| press.missed()).into_iter().collect()
     }

@@ -10,7 +10,7 @@ pub(crate) type Look<'a> = &'a mut dyn FnMut() -> Result<(), FabricError>;
 /// Tells `progress` the share of the work that is done.
 ///
 /// **Errors**: [`FabricError::Cancelled`] if `progress` returns `Break`.
-pub(super) fn tell(progress: &mut impl FnMut(f64) -> ControlFlow<()>, done: f64) -> Result<(), FabricError> {
+pub(crate) fn tell(progress: &mut impl FnMut(f64) -> ControlFlow<()>, done: f64) -> Result<(), FabricError> {
     match progress(done) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(FabricError::Cancelled),

@@ -21,10 +21,10 @@ pub(crate) use self::look::Look;
 pub use self::piece::Piece;
 pub use self::repeat::Repeat;
 pub(crate) use self::repeat::settled_together;
-pub use self::settled::{Finish, Press, Settled};
+pub use self::settled::{Finish, Press, RestBy, Settled};
 
-use self::look::tell;
-use self::settled::unchanged;
+pub(crate) use self::look::tell;
+pub(crate) use self::settled::unchanged;
 use crate::{FabricError, thickness_mm};
 
 /// The share of the progress at which all passes have been made. Nothing but the progress depends

@@ -6,10 +6,24 @@ use texere_core::{Origin, YarnPlace, Yarns};
 
 use crate::{BySet, FabricWarning};
 
+/// How yarns of a knit come to rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum RestBy {
+    /// Yarns move until none pierces another or folds. The gauge stays as it is.
+    #[default]
+    Contact,
+    /// Yarns move until bending and contact have the least energy. The gauge follows: see
+    /// [`RelaxedKnit`](crate::RelaxedKnit).
+    Energy,
+}
+
 /// The settings of settling: lengths, a press and passes for knits; tautness and a calender for
 /// woven cloth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Finish {
+    /// How a knit that repeats comes to rest. It has no effect on woven cloth.
+    pub by: RestBy,
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
     /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
     /// a length for some loop. A warp knit gets the lengths of its run-ins, and keeps its lengths
@@ -32,7 +46,7 @@ pub struct Finish {
 
 impl Finish {
     /// The rule for lengths. Without one, yarns keep their lengths.
-    pub(super) fn length(&self) -> Length {
+    pub(crate) fn length(&self) -> Length {
         self.length.unwrap_or(Length::Held)
     }
 }
@@ -42,6 +56,7 @@ impl Default for Finish {
     /// relaxed woven cloth.
     fn default() -> Self {
         Self {
+            by: RestBy::Contact,
             length: None,
             press_mm: None,
             passes: 250,
@@ -123,6 +138,6 @@ impl Settled {
 }
 
 /// Whether all yarns were compared and their linking is unchanged.
-pub(super) const fn unchanged(linking: &Linking) -> bool {
+pub(crate) const fn unchanged(linking: &Linking) -> bool {
     linking.passages == 0 && linking.left_out == 0
 }

@@ -253,6 +253,25 @@ impl WarpKnitted {
         Ok(Repeat { piece: self.piece_of(size)?, copies: [0, 1].map(|axis| repeats[axis] / tiles[axis]) })
     }
 
+    /// One repeat of the cloth as the bars give it, with the number of its copies.
+    pub(super) fn smallest_repeat(&self) -> Result<Repeat, FabricError> {
+        let copies = [0, 1].map(|axis| self.size()[axis] / self.repeat[axis]);
+        Ok(Repeat { piece: self.piece_of(self.repeat)?, copies })
+    }
+
+    /// The cloth with the gauge of its `yarns` at rest. Bars without a run-in get that of their
+    /// yarns.
+    #[must_use]
+    pub(crate) fn at_rest(self, gauge: Gauge, yarns: &Yarns) -> Self {
+        let mut cloth = Self { gauge, ..self };
+        let run_ins = cloth.run_ins(yarns);
+        for (bar, run_in) in cloth.bars.iter_mut().zip(run_ins).filter(|(_, run_in)| run_in.reached_mm > 0.0)
+        {
+            bar.run_in_mm.get_or_insert(run_in.reached_mm);
+        }
+        cloth
+    }
+
     /// The stitch at a place on one of the cloth's yarns. The source of the place gives the course,
     /// and its x gives the wale.
     pub(crate) fn stitch_at(&self, place: &YarnPlace) -> Option<StitchPlace> {

@@ -8,8 +8,9 @@ use texere_core::{Backend, Origin, Yarns};
 use super::bar::RACK;
 use super::{Bar, WarpKnitted};
 use crate::own::Own;
-use crate::settling::settle_repeat;
-use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled};
+use crate::relaxation::relax_repeat;
+use crate::settling::{Look, settle_repeat};
+use crate::{FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled};
 
 /// Range of the factor by which settling may change the length of a yarn: the range of
 /// [`Length::Given`].
@@ -69,6 +70,26 @@ impl WarpKnitted {
             progress,
         )?;
         Ok(settled.pressed(|yarns| self.measures(yarns).thickness_mm))
+    }
+
+    /// Lets the yarns of one repeat come to rest by their energy, and copies the repeat. Wales and
+    /// courses follow from the run-ins: see [`RelaxedKnit::gauge`]. Without run-ins yarns keep the
+    /// lengths that the gauge's wales and courses give them.
+    ///
+    /// **Errors**: [`FinishError::Relaxation`] for yarns that can't be relaxed,
+    /// [`FinishError::Backend`] for a backend that can't relax yarns, and the errors of
+    /// [`WarpKnitted::settle`].
+    pub fn relax(
+        &self,
+        finish: &Finish,
+        tension: f32,
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<RelaxedKnit, FinishError> {
+        let repeat = self.smallest_repeat()?.with_tension(tension).map_err(FabricError::from)?;
+        let length = self.finish_of(&repeat, finish).length();
+        let placed = |repeat: &Repeat, yarns: &Yarns, look: Look<'_>| self.placed(repeat, yarns, look);
+        relax_repeat(&repeat, self.gauge(), length, placed, backend, progress)
     }
 
     /// `finish` with a rule for the lengths of [`WarpKnitted::repeat`], if it has none.

@@ -74,6 +74,13 @@ impl Knitted {
         self
     }
 
+    /// The cloth with another gauge, that of its yarns at rest.
+    #[must_use]
+    pub(crate) fn with_gauge(self, gauge: Gauge) -> Self {
+        let shape = Shape::new(&gauge, thickest(used(&self.stitches, &self.yarns), &self.sections));
+        Self { gauge, shape, ..self }
+    }
+
     /// The number of control points of each stitch.
     #[must_use]
     pub const fn cells(&self) -> Cells {
@@ -211,6 +218,15 @@ impl Knitted {
         let tiles = settled_together(size, self.copies);
         let copies = [0, 1].map(|axis| self.copies[axis] / tiles[axis]);
         Ok(Repeat { piece: self.piece_of(&self.stitches.tiled(tiles))?, copies })
+    }
+
+    /// One repeat of the cloth as the stitches give it, with the number of its copies. None for a
+    /// cloth that does not repeat.
+    pub(super) fn smallest_repeat(&self) -> Result<Option<Repeat>, FabricError> {
+        if self.stitches.repeat.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(Repeat { piece: self.piece_of(&self.stitches)?, copies: self.copies }))
     }
 
     fn piece_of(&self, stitches: &Stitches) -> Result<Piece, FabricError> {

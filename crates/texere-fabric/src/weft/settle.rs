@@ -7,8 +7,9 @@ use texere_core::{Backend, Origin, Yarns};
 
 use super::{Knitted, Stitch};
 use crate::own::Own;
-use crate::settling::settle_repeat;
-use crate::{FabricError, Finish, FinishError, Measures, Piece, Repeat, Settled, settle};
+use crate::relaxation::relax_repeat;
+use crate::settling::{Look, settle_repeat};
+use crate::{FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled, settle};
 
 /// Range of the factor by which settling may change the length of a yarn: the range of
 /// [`Length::Given`].
@@ -40,6 +41,34 @@ impl Knitted {
         }
         settle_repeat(&repeat, |yarns, look| self.placed(&repeat, yarns, look), &finish, backend, progress)
             .map(|settled| self.pressed(settled))
+    }
+
+    /// Lets the yarns of one repeat come to rest by their energy, and copies the repeat. Wales and
+    /// courses follow from the length of the loops: see [`RelaxedKnit::gauge`].
+    ///
+    /// Loops get, in the mean, the length that the program or the gauge gives, or keep the length
+    /// that the gauge's wales and courses give them. `finish` may say another length.
+    ///
+    /// **Errors**: [`FinishError::NoEnergy`] for a cloth that does not repeat,
+    /// [`FinishError::Relaxation`] for yarns that can't be relaxed, [`FinishError::Backend`] for a
+    /// backend that can't relax yarns, and the errors of [`Knitted::settle`].
+    pub fn relax(
+        &self,
+        finish: &Finish,
+        tension: f32,
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<RelaxedKnit, FinishError> {
+        let repeat = self
+            .smallest_repeat()?
+            .ok_or(FinishError::NoEnergy { cloth: "this one is whole, with edges" })?;
+        let repeat = repeat.with_tension(tension).map_err(FabricError::from)?;
+        let length = self.finish_of(&repeat, finish).length();
+        let placed = |repeat: &Repeat, yarns: &Yarns, look: Look<'_>| self.placed(repeat, yarns, look);
+        let mut relaxed = relax_repeat(&repeat, self.gauge(), length, placed, backend, progress)?;
+        let measures = self.clone().with_gauge(relaxed.gauge).measured(&relaxed.yarns);
+        relaxed.gauge.loop_length_mm = measures.knit.map(|knit| knit.loop_length_mm);
+        Ok(relaxed)
     }
 
     fn pressed(&self, settled: Settled) -> Settled {

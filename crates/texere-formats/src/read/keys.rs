@@ -170,6 +170,7 @@ impl Keys {
             Subject::Offset(number) => bar(number, "offset"),
             Subject::RunIn(number) => bar(number, "run_in_mm"),
             Subject::Jacquard(number) => bar(number, "colors"),
+            Subject::Rest => self.line("finish.rest"),
             Subject::Length => self.line("finish.length"),
             Subject::Tension => self.line("finish.tension"),
             Subject::Press => self.line("finish.press"),
@@ -259,7 +260,9 @@ impl Keys {
 #[cfg(test)]
 mod tests {
     use texere_contact::ContactError;
-    use texere_core::{BackendError, CrossingsError, OutOfMemory, SectionError, SettlingError, YarnError};
+    use texere_core::{
+        BackendError, CrossingsError, OutOfMemory, RelaxationError, SectionError, SettlingError, YarnError,
+    };
     use texere_fabric::warp::{Lap, WarpError};
     use texere_fabric::weft::WeftError;
     use texere_fabric::{FabricError, ThreadError, WovenError};
@@ -270,7 +273,7 @@ mod tests {
     fn keys() -> Keys {
         let all = "weave weave.notation weave.ends knit knit.chart knit.repeat knit.yarns knit.wales_per_cm \
                    knit.courses_per_cm knit.loop_length_mm warp_knit warp_knit.wales warp_knit.courses warp_knit.bars \
-                   warp.yarns warp.spacing_mm weft.yarns weft.per_cm finish.length finish.tension finish.press \
+                   warp.yarns warp.spacing_mm weft.yarns weft.per_cm finish.rest finish.length finish.tension finish.press \
                    finish.stretch_warp finish.stretch_weft finish.warp_tension finish.weft_tension finish.calender \
                    cloth.warp_crimp yarns.a yarns.a.tex yarns.a.flatness yarns.a.stiffness yarns.a.twist_per_m \
                    yarns.a.section yarns.a.color";
@@ -287,6 +290,7 @@ mod tests {
         let wale = || FabricError::Weft(WeftError::Gauge { what: "wales", mm: 0.0, low: 0.0, high: 1.0 });
         let thread = |set, setting| CrossingsError::Thread { set, thread: 1, setting, value: 9.0, low, high };
         let ask = |setting| SettlingError::Setting { setting, value: 9.0, low, high };
+        let relax = |setting| RelaxationError::Setting { setting, value: 9.0, low: 0.5, high: 2.0 };
         let pull = |setting| CrossingsError::Setting { setting, value: 99.0, low, high };
         let stitches = || FabricError::Weft(WeftError::Stitches { what: "none" });
         let cases: Vec<(FinishError, &str)> = vec![
@@ -471,6 +475,12 @@ mod tests {
                     source: SettlingError::LongInterval { yarn: 0, axis: 'x', chords: 9, limit: 1 },
                 },
                 "knit.wales_per_cm",
+            ),
+            (FinishError::NoEnergy { cloth: "woven" }, "finish.rest"),
+            (relax("the length").into(), "finish.length"),
+            (
+                RelaxationError::Interval { yarn: 0, point: 1, length: 9.0, core: 0.1, most: 5.0 }.into(),
+                "knit.chart",
             ),
             (FinishError::Woven { asked: "a length" }, "finish.length"),
             (FinishError::Woven { asked: "a press" }, "finish.press"),

@@ -1,6 +1,7 @@
 //! The report of how yarns came to rest.
 
 mod knit;
+mod relaxed;
 mod woven;
 
 use std::fmt;
@@ -10,6 +11,7 @@ use texere_fabric::{ClothClearance, Finished};
 
 use crate::{Cloth, RestReport};
 use knit::KnitRestReport;
+use relaxed::RelaxedReport;
 use woven::WovenRestReport;
 
 /// How the yarns of a cloth came to rest, in a line that displays and as data that serializes.
@@ -21,6 +23,7 @@ pub struct SettlingReport(Settling);
 #[serde(untagged)]
 enum Settling {
     Knit(KnitRestReport),
+    Relaxed(RelaxedReport),
     Woven(WovenRestReport),
     /// Woven cloth whose crossings can't settle. Its threads are as the structure places them.
     Refused {
@@ -36,6 +39,9 @@ impl SettlingReport {
         Some(Self(match cloth.report() {
             RestReport::Finished(Finished::Knit(settled)) => {
                 Settling::Knit(KnitRestReport::new(cloth.design(), settled, device))
+            }
+            RestReport::Finished(Finished::Relaxed(relaxed)) => {
+                Settling::Relaxed(RelaxedReport::new(relaxed, device))
             }
             RestReport::Finished(Finished::Woven(rest)) => {
                 Settling::Woven(WovenRestReport::new(rest, device))
@@ -57,6 +63,7 @@ impl SettlingReport {
     pub(super) const fn measured(&mut self, clearance: &ClothClearance) {
         match &mut self.0 {
             Settling::Knit(report) => report.clearance = clearance.least(),
+            Settling::Relaxed(report) => report.clearance = clearance.least(),
             Settling::Woven(report) => report.clearance = clearance.least(),
             Settling::Refused { .. } => {}
         }
@@ -66,7 +73,7 @@ impl SettlingReport {
     pub(super) fn press_missed(&self) -> Option<String> {
         match &self.0 {
             Settling::Knit(report) => report.press_missed.clone(),
-            Settling::Woven(_) | Settling::Refused { .. } => None,
+            Settling::Relaxed(_) | Settling::Woven(_) | Settling::Refused { .. } => None,
         }
     }
 }
@@ -75,6 +82,7 @@ impl fmt::Display for SettlingReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Settling::Knit(report) => report.fmt(f),
+            Settling::Relaxed(report) => report.fmt(f),
             Settling::Woven(report) => report.fmt(f),
             Settling::Refused { refused } => write!(f, "none, the cloth is as it is woven: {refused}"),
         }

@@ -2,7 +2,7 @@
 
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{BySet, Finish, Stretch};
+use texere_fabric::{BySet, Finish, RestBy, Stretch};
 use toml::Spanned;
 
 use super::any::Any;
@@ -16,6 +16,7 @@ impl FinishTable {
     /// Woven cloth has other keys than knits.
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
         let knits = [
+            ("finish.rest", &self.rest),
             ("finish.length", &self.length),
             ("finish.tension", &self.tension),
             ("finish.press", &self.press),
@@ -33,7 +34,7 @@ impl FinishTable {
                 "only in a knit: woven cloth has warp_tension, weft_tension, calender, stretch_warp and stretch_weft",
             )
         } else {
-            (&wovens[..], "only in woven cloth: a knit has length, tension and press")
+            (&wovens[..], "only in woven cloth: a knit has rest, length, tension and press")
         };
         if let Some((field, value)) = others.iter().find_map(|(field, value)| Some((field, value.as_ref()?)))
         {
@@ -51,6 +52,7 @@ impl FinishTable {
         let settle = self.settle.as_ref().map(said).transpose()?;
         let [warp, weft, calender, ..] = wovens;
         let mut finish = Finish {
+            by: self.by(source)?,
             length: self.length(source)?,
             taut: BySet { warp: times(warp)?, weft: times(weft)? },
             calender: times(calender)?,
@@ -62,6 +64,27 @@ impl FinishTable {
             finish.press_mm = Some(source.number(field, &gap, PRESS_MM)? as f32);
         }
         Ok((settle, finish))
+    }
+
+    /// Whether a knit comes to rest by contact or by its energy. Rest by energy knows no plates,
+    /// and no lengths that are free.
+    fn by(&self, source: &Source<'_>) -> Result<RestBy, ReadError> {
+        let Some(given) = &self.rest else { return Ok(RestBy::Contact) };
+        match given.as_ref().text() {
+            Some("clear") => return Ok(RestBy::Contact),
+            Some("energy") => {}
+            _ => return Err(source.odd("finish.rest", given, "\"clear\" or \"energy\"")),
+        }
+        if let Some(press) = &self.press {
+            return Err(source.odd("finish.press", press, "only with finish.rest = \"clear\""));
+        }
+        match &self.length {
+            Some(length) if length.as_ref().text() == Some("free") => {
+                let expected = "\"held\" or a number: lengths are free only with finish.rest = \"clear\"";
+                Err(source.odd("finish.length", length, expected))
+            }
+            _ => Ok(RestBy::Energy),
+        }
     }
 
     /// How woven cloth is stretched, or none if the table does not say.

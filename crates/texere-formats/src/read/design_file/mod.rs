@@ -105,6 +105,7 @@
 //! | key | value |
 //! |---|---|
 //! | `settle` | whether yarns settle at all; `true` if not given |
+//! | `rest` | of knits: `"clear"`, or `"energy"` for the least energy of bending and contact ([`RestBy`](texere_fabric::RestBy)); `"clear"` if not given |
 //! | `length` | `"held"`, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]); if not given, as loop lengths or run-ins ask for, see [`Finish`] |
 //! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 if not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |

@@ -114,6 +114,7 @@ tables! {
     /// wrong kind says what its key expects.
     FinishTable {
         settle: Option<Spanned<Any>>,
+        rest: Option<Spanned<Any>>,
         press: Option<Spanned<Any>>,
         tension: Option<Spanned<Any>>,
         length: Option<Spanned<Any>>,

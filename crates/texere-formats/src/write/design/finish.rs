@@ -1,7 +1,7 @@
 //! The settings of a knit's finish that differ from the defaults.
 
 use texere_core::settling::Length;
-use texere_fabric::Finish;
+use texere_fabric::{Finish, RestBy};
 
 use crate::Design;
 
@@ -24,7 +24,7 @@ pub(super) struct KnitFinish {
 
 impl KnitFinish {
     pub(super) fn new(design: &Design) -> Self {
-        let Finish { length, press_mm, passes, record, taut, calender } = design.finish;
+        let Finish { by, length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
         let mut keys = match length {
             None => Vec::new(),
@@ -35,6 +35,9 @@ impl KnitFinish {
                 [("length", Setting::Word("free"))].into_iter().chain(tension).collect()
             }
         };
+        if by == RestBy::Energy {
+            keys.push(("rest", Setting::Word("energy")));
+        }
         keys.extend(press_mm.map(|mm| ("press", Setting::Number(mm))));
         let unsaid = [
             (taut.warp != usual.taut.warp, "finish.warp_tension, which only woven cloth has"),

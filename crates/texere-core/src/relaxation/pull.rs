@@ -1,0 +1,213 @@
+//! The energy of one interval, and how it grows with the interval's control points.
+//!
+//! ```text
+//! for each interval:                                   RelaxationPull::new
+//!     for each of its samples:                         bend
+//!         add the energy of the curvature there
+//!     add the energy of the length that it has too much or too little
+//!     for each neighbour, and each sample of both:     press
+//!         if the distance is less than the shells reach, and the samples do not follow one
+//!         another along one yarn:
+//!             add half of the energy of the contact, and the whole force on this interval
+//! ```
+//!
+//! Every pair of intervals is met twice, once from either side. So a pull only reads, and writes
+//! nothing but itself: the sums of a schedule do not depend on the number of threads.
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3};
+
+use super::elastic::Shells;
+use super::node::blend;
+use super::{RelaxationInterval, RelaxationNear, RelaxationPlan, RelaxationState};
+use crate::Ends;
+
+/// The least square of a velocity, mm², so that no power of it underflows where a spline stands
+/// still.
+const STILL: f64 = 1e-24;
+
+/// An energy by its terms, N mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy {
+    /// The energy of curvature.
+    pub bending: f64,
+    /// The energy of lengths that are not those at rest.
+    pub length: f64,
+    /// The energy of contacts.
+    pub contact: f64,
+    /// The energy of what presses the cloth flat.
+    pub press: f64,
+}
+
+impl Energy {
+    /// The sum of all terms, N mm.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.bending + self.length + self.contact + self.press
+    }
+
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            bending: self.bending + other.bending,
+            length: self.length + other.length,
+            contact: self.contact + other.contact,
+            press: self.press + other.press,
+        }
+    }
+}
+
+/// The energy of an interval, and how it grows with the interval's four control points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelaxationPull {
+    /// By how much the energy of all yarns grows with each of the four control points, as far as
+    /// this interval's own energy and the forces on it go, N.
+    pub slopes: [DVec3; 4],
+    /// The growth of the energy with the repeat's length along x and y, N.
+    pub repeat: DVec2,
+    /// The interval's energy, with half of the energy of its contacts.
+    pub energy: Energy,
+    /// The sum of the contact forces on the interval's samples, N.
+    pub pressed: f64,
+}
+
+impl RelaxationPull {
+    /// The pull of interval number `interval` for yarns with the share `growth` of their thickness.
+    /// `positions` are those of all samples, and `near` are the neighbours of the interval.
+    #[must_use]
+    pub fn new(
+        plan: &RelaxationPlan,
+        state: &RelaxationState,
+        growth: f64,
+        interval: usize,
+        positions: &[DVec3],
+        near: &[RelaxationNear],
+    ) -> Self {
+        let interval = &plan.intervals()[interval];
+        let window = plan.points_of(state, interval);
+        let energy = Energy { bending: 0.0, length: 0.0, contact: 0.0, press: 0.0 };
+        let mut pull = Self { slopes: [DVec3::ZERO; 4], repeat: DVec2::ZERO, energy, pressed: 0.0 };
+        pull.bend(plan, interval, &window);
+        pull.lengthen(plan, interval, &window);
+        pull.flatten(plan, interval, positions);
+        for near in near {
+            pull.press(plan, state, growth, interval, positions, near);
+        }
+        pull.fold(plan, interval);
+        pull
+    }
+
+    /// Adds the energy of bending: `B/2 ∫ |c|² / |x'|⁵ du`, where c is the cross product of both
+    /// derivatives x' and x'' by u.
+    fn bend(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, window: &[DVec3; 4]) {
+        let nodes = plan.nodes(interval);
+        let weight = plan.elastic()[interval.yarn as usize].bending / nodes.len() as f64;
+        for node in nodes {
+            let (velocity, acceleration) = (blend(&node.velocity, window), blend(&node.acceleration, window));
+            let cross = velocity.cross(acceleration);
+            let square = velocity.length_squared().max(STILL);
+            let scale = weight / (square * square * square.sqrt());
+            self.energy.bending += 0.5 * scale * cross.length_squared();
+            let by_acceleration = cross.cross(velocity) * scale;
+            let by_velocity = acceleration.cross(cross) * scale
+                - velocity * (2.5 * scale * cross.length_squared() / square);
+            self.add(&node.velocity, by_velocity);
+            self.add(&node.acceleration, by_acceleration);
+        }
+    }
+
+    /// Adds the energy of the interval's length.
+    fn lengthen(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, window: &[DVec3; 4]) {
+        let (arc, velocities) = plan.arc(window);
+        let strain = arc / interval.length - 1.0;
+        let force = plan.elastic()[interval.yarn as usize].extension * strain;
+        self.energy.length += 0.5 * force * strain * interval.length;
+        for (velocity, (node, weight)) in velocities.into_iter().zip(plan.gauss()) {
+            self.add(&node.velocity, velocity.normalize_or_zero() * (force * weight));
+        }
+    }
+
+    /// Adds the energy of what presses the cloth flat: that of springs between the yarn and z = 0.
+    fn flatten(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, positions: &[DVec3]) {
+        let own = &positions[interval.first_sample as usize..][..interval.samples as usize];
+        let stiffness = plan.press * interval.length / f64::from(interval.samples);
+        for (at, node) in own.iter().zip(plan.nodes(interval)) {
+            self.energy.press += 0.5 * stiffness * at.z * at.z;
+            self.add(&node.position, DVec3::Z * (stiffness * at.z));
+        }
+    }
+
+    /// Adds the contacts with one neighbour.
+    fn press(
+        &mut self,
+        plan: &RelaxationPlan,
+        state: &RelaxationState,
+        growth: f64,
+        interval: &RelaxationInterval,
+        positions: &[DVec3],
+        near: &RelaxationNear,
+    ) {
+        let other = &plan.intervals()[near.interval as usize];
+        let yarns = [interval, other].map(|interval| &plan.elastic()[interval.yarn as usize]);
+        let shells = Shells::new(yarns, growth);
+        let (reach, window) = (shells.reach(), PI * growth * yarns[0].shell);
+        let yarn = &plan.yarns()[interval.yarn as usize];
+        // A closed yarn also follows itself the other way round.
+        let turn = if yarn.ends == Ends::Closed { yarn.length } else { f64::INFINITY };
+        let image = DVec2::new(f64::from(near.image[0]), f64::from(near.image[1]));
+        let way = (image * state.repeat).extend(0.0);
+        let parts = [interval, other].map(|interval| interval.length / f64::from(interval.samples));
+        let lengths = parts[0] * parts[1];
+        let of = |interval: &RelaxationInterval| {
+            &positions[interval.first_sample as usize..][..interval.samples as usize]
+        };
+        let mut all = DVec3::ZERO;
+        for ((own, at), node) in of(interval).iter().enumerate().zip(plan.nodes(interval)) {
+            let (mut force, at) = (DVec3::ZERO, *at - way);
+            // The distance along the yarn from this sample to the other's first.
+            let along = near.along + 0.5 * (parts[1] - parts[0]) - own as f64 * parts[0];
+            for (number, place) in of(other).iter().enumerate() {
+                let apart = at - *place;
+                let square = apart.length_squared();
+                let along = (along + number as f64 * parts[1]).abs();
+                let follows = along < window || turn - along < window;
+                if square >= reach * reach || follows {
+                    continue;
+                }
+                let distance = square.sqrt();
+                let [energy, slope] = shells.energy(distance);
+                self.energy.contact += 0.5 * energy * lengths;
+                force += apart.normalize_or_zero() * (slope * lengths);
+            }
+            self.pressed += force.length();
+            self.add(&node.position, force);
+            all += force;
+        }
+        self.repeat -= 0.5 * all.truncate() * image;
+    }
+
+    fn add(&mut self, weights: &[f64; 4], slope: DVec3) {
+        for (sum, weight) in self.slopes.iter_mut().zip(weights) {
+            *sum += slope * *weight;
+        }
+    }
+
+    /// Moves what pulls at virtual ends to the points that they are computed from, and adds to the
+    /// growth with the repeat what pulls at points in the yarn's other rounds.
+    fn fold(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval) {
+        let [opens, ends] = plan.is_at_end(interval);
+        let [before, start, end, after] = &mut self.slopes;
+        if opens {
+            *start += *before * 2.0;
+            *end -= std::mem::take(before);
+        }
+        if ends {
+            *end += *after * 2.0;
+            *start -= std::mem::take(after);
+        }
+        let shift = plan.shift(interval.yarn);
+        for ((_, round), slope) in plan.window_of(interval).into_iter().zip(self.slopes) {
+            self.repeat += slope.truncate() * shift * f64::from(round);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The work of a device for a relaxation.
+
+use std::any::Any;
+use std::fmt::Debug;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::{Energy, RelaxationPlan, RelaxationPull, RelaxationState};
+use crate::BackendError;
+use crate::work_watch::WorkWatch;
+
+/// The energy of a state, and its forces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RelaxationSeen {
+    /// The energy.
+    pub energy: Energy,
+    /// By how much the energy grows with each coordinate of each control point, N: the force at the
+    /// point, with the opposite sign. There is one element per control point.
+    pub slopes: Vec<DVec3>,
+    /// By how much the energy grows with the repeat's length along x and y, N, if no control point
+    /// moves.
+    pub repeat: DVec2,
+    /// The largest sum of contact forces on an interval, N.
+    pub pressed: f64,
+}
+
+/// A relaxation on one device.
+///
+/// **Errors**: [`BackendError`] for failures that could not be foreseen, and
+/// [`BackendError::Crowded`] if too many yarns lie in one place.
+pub trait Relaxer: Any + Debug + Send {
+    /// The plan of the relaxer.
+    fn plan(&self) -> &Arc<RelaxationPlan>;
+
+    /// The energy and the forces of `state`, for yarns with the share `growth` of their thickness.
+    /// Asks `watch` a few times in each 50 ms whether to go on.
+    fn measure(
+        &mut self,
+        state: &RelaxationState,
+        growth: f64,
+        watch: WorkWatch<'_>,
+    ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError>;
+}
+
+impl RelaxationSeen {
+    /// The sums of the pulls of all intervals, in the order of intervals. A relaxer on a CPU adds
+    /// them up so, on any number of threads.
+    #[must_use]
+    pub fn of(plan: &RelaxationPlan, pulls: &[RelaxationPull]) -> Self {
+        let nothing = Energy { bending: 0.0, length: 0.0, contact: 0.0, press: 0.0 };
+        let points = plan.start().points.len();
+        let mut seen =
+            Self { energy: nothing, slopes: vec![DVec3::ZERO; points], repeat: DVec2::ZERO, pressed: 0.0 };
+        for (interval, pull) in pulls.iter().enumerate() {
+            for (point, slope) in plan.window(interval).into_iter().zip(pull.slopes) {
+                seen.slopes[point as usize] += slope;
+            }
+            seen.energy = seen.energy.and(pull.energy);
+            seen.repeat += pull.repeat;
+            seen.pressed = seen.pressed.max(pull.pressed);
+        }
+        seen
+    }
+}
+
+const _: () = {
+    const fn sends<T: Send + ?Sized>() {}
+    sends::<dyn Relaxer>();
+};

@@ -1,0 +1,73 @@
+//! What both CPU relaxers share: their memory, the lists of neighbours, and the sum of all pulls.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use texere_core::BackendError;
+use texere_core::backend::{WorkWatch, filled, room_for};
+use texere_core::relaxation::{
+    RelaxationLists, RelaxationPlan, RelaxationPull, RelaxationSeen, RelaxationState,
+};
+
+use crate::asked::in_parts;
+
+/// The number of intervals between two questions to the caller while samples are worked out.
+const PART: usize = 4096;
+
+/// The samples of a state, the lists of neighbours, and the pulls of all intervals.
+#[derive(Debug)]
+pub(crate) struct RelaxationMemory {
+    pub(crate) plan: Arc<RelaxationPlan>,
+    positions: Vec<glam::DVec3>,
+    lists: Option<RelaxationLists>,
+    pulls: Vec<RelaxationPull>,
+}
+
+impl RelaxationMemory {
+    /// Allocates the memory for `plan`.
+    pub(crate) fn new(plan: Arc<RelaxationPlan>) -> Result<Self, BackendError> {
+        let positions = filled("samples", plan.samples(), glam::DVec3::ZERO)?;
+        let mut pulls = Vec::new();
+        room_for(&mut pulls, plan.intervals().len(), "pulls of intervals")?;
+        Ok(Self { plan, positions, lists: None, pulls })
+    }
+
+    /// Measures a state. `pull_all` appends the pull of each interval, made by the function that it
+    /// gets, in the order of intervals.
+    pub(crate) fn measure(
+        &mut self,
+        state: &RelaxationState,
+        growth: f64,
+        watch: WorkWatch<'_>,
+        pull_all: impl FnOnce(
+            &(dyn Fn(usize) -> RelaxationPull + Sync),
+            &mut Vec<RelaxationPull>,
+            WorkWatch<'_>,
+        ) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
+        let Self { plan, positions, lists, pulls } = self;
+        let intervals = plan.intervals();
+        let sampled = in_parts(intervals.len(), PART, watch, |part| {
+            for interval in &intervals[part] {
+                let own = &mut positions[interval.first_sample as usize..][..interval.samples as usize];
+                plan.sample(state, interval, own);
+            }
+        });
+        if sampled.is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        let lists = match lists.take().filter(|lists| lists.hold(plan, state, growth)) {
+            Some(held) => lists.insert(held),
+            None => match RelaxationLists::new(plan, state, growth, positions, watch)? {
+                ControlFlow::Continue(made) => lists.insert(made),
+                ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
+            },
+        };
+        let pull = |interval: usize| {
+            RelaxationPull::new(plan, state, growth, interval, positions, lists.of(interval))
+        };
+        pulls.clear();
+        let pulled = pull_all(&pull, pulls, watch);
+        Ok(pulled.map_continue(|()| RelaxationSeen::of(plan, pulls)))
+    }
+}

@@ -480,7 +480,7 @@ mod tests {
             (relax("the length").into(), "finish.length"),
             (
                 RelaxationError::Interval { yarn: 0, point: 1, length: 9.0, core: 0.1, most: 5.0 }.into(),
-                "knit.chart",
+                "knit.loop_length_mm",
             ),
             (FinishError::Woven { asked: "a length" }, "finish.length"),
             (FinishError::Woven { asked: "a press" }, "finish.press"),

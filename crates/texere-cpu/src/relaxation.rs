@@ -49,8 +49,7 @@ impl RelaxationMemory {
         let intervals = plan.intervals();
         let sampled = in_parts(intervals.len(), PART, watch, |part| {
             for interval in &intervals[part] {
-                let own = &mut positions[interval.first_sample as usize..][..interval.samples as usize];
-                plan.sample(state, interval, own);
+                plan.sample(state, interval, &mut positions[interval.sampled()]);
             }
         });
         if sampled.is_break() {

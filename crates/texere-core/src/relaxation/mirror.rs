@@ -15,8 +15,8 @@ use super::RelaxationState;
 /// radius of its core.
 const NEAR: f64 = 1e-3;
 
-/// The most control points of yarns whose mirror image is sought. It is tried for each point, and
-/// each time as many points are looked up as fit.
+/// The most control points of yarns whose mirror image is sought. It is tried for each point at the
+/// height of the first one, and each time as many points are looked up as fit.
 const POINTS_MAX: usize = 1 << 14;
 
 /// For each control point the number of its mirror image in x, if all have one. `cores` are the

@@ -169,7 +169,7 @@ impl RelaxationPlan {
 
 impl Ball {
     fn around(interval: &RelaxationInterval, positions: &[DVec3]) -> Self {
-        let own = &positions[interval.first_sample as usize..][..interval.samples as usize];
+        let own = &positions[interval.sampled()];
         let far = DVec3::splat(f64::INFINITY);
         let (low, high) = own.iter().fold((far, -far), |(low, high), at| (low.min(*at), high.max(*at)));
         let middle = 0.5 * (low + high);

@@ -1,6 +1,7 @@
 //! The plan: all tables of a relaxation, made before anything is worked out.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
@@ -75,6 +76,14 @@ pub struct RelaxationPlan {
     pub(super) press: f64,
     pub(super) held: [bool; 2],
     pub(super) steps: u32,
+}
+
+impl RelaxationInterval {
+    /// The numbers of the interval's samples.
+    #[must_use]
+    pub const fn sampled(&self) -> Range<usize> {
+        self.first_sample as usize..(self.first_sample + self.samples) as usize
+    }
 }
 
 impl RelaxationPlan {
@@ -210,7 +219,7 @@ impl RelaxationPlan {
     /// Number of samples of all intervals.
     #[must_use]
     pub fn samples(&self) -> usize {
-        self.intervals.last().map_or(0, |last| (last.first_sample + last.samples) as usize)
+        self.intervals.last().map_or(0, |last| last.sampled().end)
     }
 
     /// The numbers of the control points that are held.

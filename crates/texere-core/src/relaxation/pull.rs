@@ -28,7 +28,7 @@ use crate::Ends;
 const STILL: f64 = 1e-24;
 
 /// An energy by its terms, N mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Energy {
     /// The energy of curvature.
     pub bending: f64,
@@ -85,7 +85,7 @@ impl RelaxationPull {
     ) -> Self {
         let interval = &plan.intervals()[interval];
         let window = plan.points_of(state, interval);
-        let energy = Energy { bending: 0.0, length: 0.0, contact: 0.0, press: 0.0 };
+        let energy = Energy::default();
         let mut pull = Self { slopes: [DVec3::ZERO; 4], repeat: DVec2::ZERO, energy, pressed: 0.0 };
         pull.bend(plan, interval, &window);
         pull.lengthen(plan, interval, &window);
@@ -129,7 +129,7 @@ impl RelaxationPull {
 
     /// Adds the energy of what presses the cloth flat: that of springs between the yarn and z = 0.
     fn flatten(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, positions: &[DVec3]) {
-        let own = &positions[interval.first_sample as usize..][..interval.samples as usize];
+        let own = &positions[interval.sampled()];
         let stiffness = plan.press * interval.length / f64::from(interval.samples);
         for (at, node) in own.iter().zip(plan.nodes(interval)) {
             self.energy.press += 0.5 * stiffness * at.z * at.z;
@@ -158,15 +158,12 @@ impl RelaxationPull {
         let way = (image * state.repeat).extend(0.0);
         let parts = [interval, other].map(|interval| interval.length / f64::from(interval.samples));
         let lengths = parts[0] * parts[1];
-        let of = |interval: &RelaxationInterval| {
-            &positions[interval.first_sample as usize..][..interval.samples as usize]
-        };
         let mut all = DVec3::ZERO;
-        for ((own, at), node) in of(interval).iter().enumerate().zip(plan.nodes(interval)) {
+        for ((own, at), node) in positions[interval.sampled()].iter().enumerate().zip(plan.nodes(interval)) {
             let (mut force, at) = (DVec3::ZERO, *at - way);
             // The distance along the yarn from this sample to the other's first.
             let along = near.along + 0.5 * (parts[1] - parts[0]) - own as f64 * parts[0];
-            for (number, place) in of(other).iter().enumerate() {
+            for (number, place) in positions[other.sampled()].iter().enumerate() {
                 let apart = at - *place;
                 let square = apart.length_squared();
                 let along = (along + number as f64 * parts[1]).abs();

@@ -49,7 +49,7 @@ impl RelaxationSeen {
     /// them up so, on any number of threads.
     #[must_use]
     pub fn of(plan: &RelaxationPlan, pulls: &[RelaxationPull]) -> Self {
-        let nothing = Energy { bending: 0.0, length: 0.0, contact: 0.0, press: 0.0 };
+        let nothing = Energy::default();
         let points = plan.start().points.len();
         let mut seen =
             Self { energy: nothing, slopes: vec![DVec3::ZERO; points], repeat: DVec2::ZERO, pressed: 0.0 };

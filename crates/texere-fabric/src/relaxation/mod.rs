@@ -112,7 +112,7 @@ pub(crate) fn relax_repeat(
     }
     let relaxed = match relaxed {
         ControlFlow::Continue(relaxed) => {
-            let linked = compared.compare(&relaxed.state, &mut || progress(RELAXED))?;
+            let linked = compared.compare(compared.back(&relaxed.state), &mut || progress(RELAXED))?;
             linked.then_some(relaxed)
         }
         ControlFlow::Break(()) => None,
@@ -129,13 +129,12 @@ pub(crate) fn relax_repeat(
     let scale = [0, 1]
         .map(|axis| f64::from(rest.piece.boundary.repeat()[axis]) / f64::from(piece.boundary.repeat()[axis]));
     let gauge = Gauge { wale_mm: gauge.wale_mm * scale[0], course_mm: gauge.course_mm * scale[1], ..*gauge };
-    let nothing = Energy { bending: 0.0, length: 0.0, contact: 0.0, press: 0.0 };
     Ok(RelaxedKnit {
         yarns,
         gauge,
         balanced: relaxed.as_ref().is_some_and(|relaxed| relaxed.at_rest),
         steps: relaxed.as_ref().map_or(0, |relaxed| relaxed.steps),
-        energy: relaxed.as_ref().map_or(nothing, |relaxed| relaxed.energy),
+        energy: relaxed.as_ref().map_or_else(Energy::default, |relaxed| relaxed.energy),
         unbalanced: relaxed.as_ref().map_or(0.0, |relaxed| relaxed.unbalanced),
         pressed: relaxed.as_ref().map_or(0.0, |relaxed| relaxed.pressed),
         linking: compared.linking,
@@ -167,18 +166,22 @@ impl<'a> Compared<'a> {
         state: &RelaxationState,
         ask: &mut (dyn FnMut() -> ControlFlow<()> + Send),
     ) -> Result<bool, FinishError> {
-        let back = state.stretched(self.from.repeat / state.repeat);
+        let back = self.back(state);
         let moved = self.from.points.iter().zip(&back.points).map(|(from, to)| from.distance(*to));
-        if moved.fold(0.0, f64::max) <= self.way { Ok(true) } else { self.compare(state, ask) }
+        if moved.fold(0.0, f64::max) <= self.way { Ok(true) } else { self.compare(back, ask) }
     }
 
-    /// Compares `state` with the last one that was compared.
+    /// `state` as if its repeat had its first lengths.
+    fn back(&self, state: &RelaxationState) -> RelaxationState {
+        state.stretched(self.from.repeat / state.repeat)
+    }
+
+    /// Compares `back`, made by [`Compared::back`], with the last state that was compared.
     fn compare(
         &mut self,
-        state: &RelaxationState,
+        back: RelaxationState,
         ask: &mut (dyn FnMut() -> ControlFlow<()> + Send),
     ) -> Result<bool, FinishError> {
-        let back = state.stretched(self.from.repeat / state.repeat);
         let yarns = self.piece.moved(&points(&back, &self.piece.yarns)).map_err(FabricError::from)?;
         let linking = linking_with_progress(&self.last, &yarns, &self.piece.boundary, |_| ask())?;
         let linked = unchanged(&linking);

@@ -23,6 +23,7 @@ mod settling;
 #[cfg(unix)]
 mod signals;
 mod terminal;
+mod test;
 #[cfg(feature = "view")]
 mod view;
 
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
         Command::Convert(args) => convert::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Test(args) => test::run(&args),
         #[cfg(feature = "view")]
         Command::View(args) => view::run(&args),
     };

@@ -63,7 +63,7 @@ pub use fibre::{COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS};
 pub use look_alike::hyphen_look_alike;
 pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
-pub use relaxation::{RelaxedKnit, elastic_of_radius};
+pub use relaxation::{Along, RelaxedKnit, StrainState, StrainTest, elastic_of_radius};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, RestBy, Settled, settle};
 pub use structure::Structure;
 pub use tile::Tile;

@@ -9,8 +9,8 @@ use crate::measures::size_mm;
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
-    FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, RestBy, Stretch,
-    WovenDesign, settle,
+    Along, FabricError, FabricWarning, Finish, FinishError, Finished, Measures, Piece, Repeat, RestBy,
+    StrainTest, Stretch, WovenDesign, settle,
 };
 
 /// How the yarns of a fabric interlace, for any kind of fabric.
@@ -198,6 +198,51 @@ impl Structure {
                 Self::Warp(knit.at_rest(relaxed.gauge, &relaxed.yarns))
             }
             (fabric, _) => fabric,
+        }
+    }
+
+    /// Strains a knit and measures how it pulls, how it gets narrower and how thick it is, at each
+    /// of `strains`: see [`Knitted::strain_test`] and [`WarpKnitted::strain_test`]. `tension` is
+    /// the tension of all yarns' splines, from 0 to below 1.
+    ///
+    /// **Errors**: [`FinishError::NoEnergy`] for a fabric that is no knit, and the errors of the
+    /// method that is called.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use texere_core::{Material, Section};
+    /// use texere_cpu::SerialBackend;
+    /// use texere_fabric::weft::{Beds, Chart, Gauge, KnitYarn, Knitted, Machine};
+    /// use texere_fabric::{Along, Finish, Structure};
+    /// let program = Chart::parse("k", Beds::One)?.program()?;
+    /// let stitches = Machine::default().knit(&program)?.stitches;
+    /// let gauge = Gauge { loop_length_mm: Some(3.6), ..Gauge::new(0.95, 0.7) };
+    /// let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    /// let jersey = Knitted::new(stitches, gauge, vec![KnitYarn::new(0.1)], materials, sections, [1, 1])?;
+    /// let test = Structure::Weft(jersey).strain_test(
+    ///     &Finish::default(),
+    ///     0.0,
+    ///     (Along::Courses, &[0.05, 0.1]),
+    ///     &SerialBackend::new(),
+    ///     |_| ControlFlow::Continue(()),
+    /// )?;
+    /// assert_eq!(test.states.len(), 3); // The first one is at rest.
+    /// assert!(test.states[2].force[0] > test.states[1].force[0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn strain_test(
+        &self,
+        finish: &Finish,
+        tension: f32,
+        strains: (Along, &[f64]),
+        backend: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<StrainTest, FinishError> {
+        match self {
+            Self::Weft(knit) => knit.strain_test(finish, tension, strains, backend, progress),
+            Self::Warp(knit) => knit.strain_test(finish, tension, strains, backend, progress),
+            Self::Woven(_) => Err(FinishError::NoEnergy { cloth: "this one is woven" }),
+            Self::Yarns(_) => Err(FinishError::NoEnergy { cloth: "these are yarns of no structure" }),
         }
     }
 

@@ -25,6 +25,6 @@ pub use read::{
     read, read_from,
 };
 #[cfg(feature = "serde")]
-pub use report::{CheckReport, InspectReport, SettlingReport};
+pub use report::{CheckReport, InspectReport, SettlingReport, StrainReport};
 pub use rest::{Cloth, RestReport, Resting};
 pub use write::WriteError;

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use texere_core::{Backend, CrossingsError, Settings, Yarns};
-use texere_fabric::{ClothClearance, FinishError, Finished};
+use texere_fabric::{Along, ClothClearance, FinishError, Finished, StrainTest};
 
 use crate::{Design, Refusal};
 
@@ -175,6 +175,37 @@ impl Design {
     pub fn placed(self, tension: f32) -> Result<Cloth, Refusal> {
         let yarns = self.placed_yarns(tension)?;
         Ok(Cloth { design: self, report: RestReport::Placed(yarns), stretched: false })
+    }
+
+    /// Lets a knit come to rest by its energy, then strains it along one way and measures how it
+    /// pulls at each of `strains`, which rise. The loops have the lengths that the design asks for.
+    /// `progress` gets the share of the work that is done, from 0 to 1. `Break` ends the work.
+    ///
+    /// **Errors**: a [`Refusal`] for a design that is no knit that repeats, for strains that don't
+    /// rise or are out of range, for a device that can't relax yarns, and if yarns pass through one
+    /// another.
+    ///
+    /// ```no_run
+    /// use std::ops::ControlFlow;
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_fabric::Along;
+    /// let rib = texere_formats::read("designs/rib.toml")?;
+    /// let device = ParallelBackend::open()?;
+    /// let test =
+    ///     rib.strain_test(Along::Courses, &[0.05, 0.1, 0.2], &device, |_| ControlFlow::Continue(()))?;
+    /// println!("Poisson's ratio: {:?}", test.poisson_at(0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn strain_test(
+        &self,
+        along: Along,
+        strains: &[f64],
+        device: &dyn Backend,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<StrainTest, Refusal> {
+        let Self { structure, finish, .. } = self;
+        let tested = structure.strain_test(finish, structure.tension(), (along, strains), device, progress);
+        tested.map_err(|error| self.refused(error))
     }
 
     fn placed_yarns(&self, tension: f32) -> Result<Yarns, Refusal> {

@@ -8,6 +8,7 @@
 //! | know whether a mesh's tubes are wrung (narrowed, because neighbouring rings are turned against one another), and how many subdivisions cure that | [`drawn()`], [`finer`] |
 //! | know weight, thickness, yarn consumption, cover and crimp of woven cloth, loops of a knit | [`Measures`], [`KnitMeasures`] |
 //! | make one report of all of that, for people or as JSON | `InspectReport`, `CheckReport` (feature `serde`) |
+//! | report how a knit pulls when it is strained, as tables or as JSON | `StrainReport` (feature `serde`) |
 //!
 //! ```
 //! use texere::check::clearance;
@@ -32,4 +33,4 @@ pub use texere_fabric::{
     Measures, Pieces, Remedy, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
 #[cfg(feature = "serde")]
-pub use texere_formats::{CheckReport, InspectReport, SettlingReport};
+pub use texere_formats::{CheckReport, InspectReport, SettlingReport, StrainReport};

@@ -8,6 +8,7 @@
 //! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Length`], [`Press`] |
 //! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
 //! | let a knit find its own gauge, by the least energy of bending and contact | [`RestBy::Energy`], [`RelaxedKnit`], [`Energy`] |
+//! | strain a knit, and measure how it pulls | [`Design::strain_test`](crate::Design::strain_test), [`StrainTest`], [`Along`] |
 //! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
 //! | settle one repeat, and copy it | [`Repeat`] |
 //!
@@ -31,7 +32,7 @@ pub use texere_core::relaxation::Energy;
 pub use texere_core::settling::Length;
 pub use texere_core::{CrossingsError, RelaxationError, SettlingError, Subject};
 pub use texere_fabric::{
-    Finish, FinishError, Finished, Piece, Press, RelaxedKnit, Repeat, RestBy, Settled, Verdict, WovenRest,
-    settle,
+    Along, Finish, FinishError, Finished, Piece, Press, RelaxedKnit, Repeat, RestBy, Settled, StrainState,
+    StrainTest, Verdict, WovenRest, settle,
 };
 pub use texere_formats::{RestReport, Resting};

@@ -14,6 +14,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
+use texere::rest::Along;
 use texere::write::VertexAttribute;
 
 pub(crate) use bake::BakeArgs;
@@ -57,6 +58,8 @@ pub(crate) enum Command {
     Bake(BakeArgs),
     /// Make a picture of a design's cloth
     Render(RenderArgs),
+    /// Strain a knit: how it pulls, how it gets narrower, and how thick it is
+    Test(TestArgs),
     /// Show a design's cloth in a window, to turn, to edit, and to watch while its file changes
     #[cfg(feature = "view")]
     View(ViewArgs),
@@ -192,6 +195,40 @@ pub(crate) struct ConvertArgs {
     /// came from a knitout program
     #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml", "k", "knitout"]))]
     pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct TestArgs {
+    /// A .toml design of a knit or a warp knit that repeats
+    pub(crate) design: PathBuf,
+    /// The ways to strain it, with commas between: courses makes it wider, wales makes it longer,
+    /// and both does both by the same strain
+    #[arg(long, value_name = "WAYS", value_delimiter = ',', default_value = "courses,wales", value_parser = along)]
+    pub(crate) along: Vec<Along>,
+    /// The greatest strain, as a share of the size at rest
+    #[arg(long, value_name = "STRAIN", default_value_t = 0.4, value_parser = strain)]
+    pub(crate) to: f64,
+    /// How many strained states are measured, up to the greatest strain, beside the one at rest
+    #[arg(long, value_name = "COUNT", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) states: u16,
+    /// Write all states to a .csv file, too
+    #[arg(short, long, value_name = "FILE", value_parser = file_of(&["csv"]))]
+    pub(crate) output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// A way along which a knit is strained, from its name.
+fn along(text: &str) -> Result<Along, String> {
+    let named = Along::ALL.into_iter().find(|along| along.name() == text);
+    named.ok_or_else(|| "expected courses, wales or both".into())
+}
+
+/// A greatest strain from its number.
+fn strain(text: &str) -> Result<f64, String> {
+    let strain = text.parse().ok().filter(|strain| *strain > 0.0 && *strain <= 5.0);
+    strain.ok_or_else(|| "expected a number above 0 and up to 5".into())
 }
 
 /// The parser of a vertex attribute's name.

@@ -16,6 +16,7 @@ mod reading;
 mod rest;
 mod saved;
 mod settling;
+mod strain;
 mod twist;
 mod warp_knit;
 

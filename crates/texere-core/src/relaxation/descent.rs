@@ -51,8 +51,9 @@ impl Descent {
         self.steps.push_back(Step { step, change, product });
     }
 
-    /// The direction of the next step, for these slopes.
-    pub(super) fn direction(&self, slopes: &[f64]) -> Vec<f64> {
+    /// The direction of the next step, for these slopes. `first` replaces forces by the step that
+    /// they make, as far as is known without what is remembered: a symmetric and positive map.
+    pub(super) fn direction(&self, slopes: &[f64], first: impl Fn(&mut [f64])) -> Vec<f64> {
         let mut way: Vec<f64> = slopes.iter().map(|slope| -slope).collect();
         let mut shares = Vec::with_capacity(self.steps.len());
         for step in self.steps.iter().rev() {
@@ -60,8 +61,11 @@ impl Descent {
             shares.push(share);
             add(&mut way, -share, &step.change);
         }
+        first(&mut way);
         if let Some(last) = self.steps.back() {
-            let scale = last.product / dot(&last.change, &last.change);
+            let mut step = last.change.clone();
+            first(&mut step);
+            let scale = last.product / dot(&last.change, &step);
             way.iter_mut().for_each(|way| *way *= scale);
         }
         for (step, share) in self.steps.iter().zip(shares.iter().rev()) {

@@ -65,17 +65,35 @@ impl Shells {
     }
 
     /// The energy at a distance of centrelines below [`Shells::reach`], for each mm of either yarn,
-    /// N/mm, and by how much it grows with the distance, N/mm².
+    /// N/mm, its first derivative by the distance, N/mm², and its second one, N/mm³.
     #[inline]
-    pub(super) fn energy(&self, distance: f64) -> [f64; 2] {
+    pub(super) fn energy(&self, distance: f64) -> [f64; 3] {
         let y = (distance - self.core) / self.depth;
         let (at, beyond) = (y.max(THINNEST), (y - THINNEST).min(0.0));
         let power = at.powf(-HARDENING);
         let value = at * power - 1.0 + (HARDENING - 1.0) * (at - 1.0);
         let slope = (HARDENING - 1.0) * (1.0 - power);
-        let curvature = if beyond < 0.0 { (HARDENING - 1.0) * HARDENING * power / at } else { 0.0 };
+        let curvature = (HARDENING - 1.0) * HARDENING * power / at;
         let scale = self.compression * self.depth / (HARDENING * (HARDENING - 1.0));
         let value = value + beyond * (slope + 0.5 * beyond * curvature);
-        [scale * self.depth * value, scale * (slope + beyond * curvature)]
+        [scale * self.depth * value, scale * (slope + beyond * curvature), scale * curvature / self.depth]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_are_differences() {
+        let yarn = Elastic { bending: 0.045, core: 0.3, shell: 0.7, compression: 6e-4, extension: 50.0 };
+        let shells = Shells::new([&yarn, &Elastic { core: 0.25, ..yarn }], 0.9);
+        for distance in [0.3, 0.5, 0.6, 0.9, 1.2] {
+            let step = 1e-6;
+            let [low, high] = [-step, step].map(|way| shells.energy(distance + way));
+            let [_, slope, change] = shells.energy(distance);
+            assert!(((high[0] - low[0]) / (2.0 * step) / slope - 1.0).abs() < 1e-5, "{distance}");
+            assert!(((high[1] - low[1]) / (2.0 * step) / change - 1.0).abs() < 1e-5, "{distance}");
+        }
     }
 }

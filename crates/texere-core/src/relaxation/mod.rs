@@ -25,6 +25,7 @@
 mod descent;
 mod elastic;
 pub(crate) mod error;
+mod even;
 mod mirror;
 mod near;
 mod node;
@@ -34,6 +35,7 @@ mod pull;
 mod relaxer;
 mod run;
 mod state;
+mod stiffness;
 
 pub use elastic::Elastic;
 pub use near::{RelaxationLists, RelaxationNear};
@@ -41,5 +43,5 @@ pub use plan::{RelaxationInterval, RelaxationPlan, RelaxationYarn};
 pub use problem::Relaxation;
 pub use pull::{Energy, RelaxationPull};
 pub use relaxer::{RelaxationSeen, Relaxer};
-pub use run::{Relaxed, relax};
+pub use run::{Relaxed, relax, relax_grown};
 pub use state::RelaxationState;

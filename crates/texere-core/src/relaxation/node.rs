@@ -2,6 +2,10 @@
 
 use glam::DVec3;
 
+/// The nodes of Gauss's rule with three nodes on \[0, 1\], and their weights.
+pub(super) const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+
 /// A place of an interval: the weights of the four control points in the position and in both
 /// derivatives by u.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,8 +6,8 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 
 use super::error::RelaxationError;
-use super::node::{Node, blend};
-use super::{Elastic, Relaxation, RelaxationState, mirror};
+use super::node::{GAUSS, Node, blend};
+use super::{Elastic, Relaxation, RelaxationState, even, mirror};
 use crate::Ends;
 use crate::backend::{filled, room};
 
@@ -26,10 +26,6 @@ const ALL_SAMPLES_MAX: u64 = 1 << 28;
 
 /// The share by which an interval and its mirror image may differ in length.
 const ALIKE: f64 = 1e-3;
-
-/// The nodes of Gauss's rule with three nodes on \[0, 1\], and their weights.
-const GAUSS: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// A yarn of a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,7 +83,8 @@ impl RelaxationInterval {
 }
 
 impl RelaxationPlan {
-    /// Checks a relaxation and makes its plan.
+    /// Checks a relaxation and makes its plan. The control points of yarns that go round are spread
+    /// along them, unless one is held: the spline stays, but its points are more evenly apart.
     ///
     /// **Errors**: [`RelaxationError`] for invalid ends, pins, elastic properties or settings, a
     /// yarn of too few control points, an interval without length or with too many samples, and
@@ -120,7 +117,7 @@ impl RelaxationPlan {
                 ends,
                 length: 0.0,
             });
-            plan.measure(yarn, relaxation.length)?;
+            plan.measure(yarn, relaxation.length, s)?;
         }
         let most = plan.intervals.iter().map(|interval| interval.samples).max().unwrap_or(0);
         for count in 1..=most {
@@ -135,41 +132,70 @@ impl RelaxationPlan {
     }
 
     /// Adds the intervals of yarn number `yarn`. Its lengths at rest are `factor` times its lengths
-    /// at the start.
-    fn measure(&mut self, yarn: usize, factor: f64) -> Result<(), RelaxationError> {
+    /// at the start. `s` is that of [`Node::new`].
+    fn measure(&mut self, yarn: usize, factor: f64, s: f64) -> Result<(), RelaxationError> {
         let RelaxationYarn { points, ends, .. } = self.yarns[yarn];
+        let first = self.intervals.len();
+        let mut first_sample = self.samples() as u64;
+        let none = RelaxationInterval {
+            yarn: yarn as u32,
+            number: 0,
+            length: 0.0,
+            along: 0.0,
+            first_sample: 0,
+            samples: 0,
+        };
+        let numbers = 0..ends.intervals(points as usize) as u32;
+        self.intervals.extend(numbers.map(|number| RelaxationInterval { number, ..none }));
         let spacing = SPACING * self.elastic[yarn].core;
         let most = SAMPLES_MAX as f64 * spacing;
         let mut along = 0.0;
-        for number in 0..ends.intervals(points as usize) as u32 {
-            let first_sample = self
-                .intervals
-                .last()
-                .map_or(0, |last| u64::from(last.first_sample) + u64::from(last.samples));
+        for (number, length) in self.lengths(yarn, first, s).into_iter().enumerate() {
+            let length = factor * length;
+            if !(length > 0.0 && length <= most) {
+                let (point, core) = (number as u64, self.elastic[yarn].core);
+                return Err(RelaxationError::Interval { yarn, point, length, core, most });
+            }
+            let samples = ((length / spacing).ceil() as usize).max(SAMPLES_MIN) as u32;
             if first_sample > ALL_SAMPLES_MAX {
                 let limit = ALL_SAMPLES_MAX;
                 return Err(RelaxationError::TooMany { what: "samples", count: first_sample, limit });
             }
-            let mut interval = RelaxationInterval {
-                yarn: yarn as u32,
-                number,
-                length: 0.0,
-                along,
-                first_sample: first_sample as u32,
-                samples: 0,
-            };
-            let window = self.points_of(&self.start, &interval);
-            interval.length = factor * self.arc(&window).0;
-            if !(interval.length > 0.0 && interval.length <= most) {
-                let (length, core) = (interval.length, self.elastic[yarn].core);
-                return Err(RelaxationError::Interval { yarn, point: number.into(), length, core, most });
-            }
-            interval.samples = ((interval.length / spacing).ceil() as usize).max(SAMPLES_MIN) as u32;
-            along += interval.length;
-            self.intervals.push(interval);
+            let interval = &mut self.intervals[first + number];
+            (interval.length, interval.along) = (length, along);
+            (interval.first_sample, interval.samples) = (first_sample as u32, samples);
+            along += length;
+            first_sample += u64::from(samples);
         }
         self.yarns[yarn].length = along;
         Ok(())
+    }
+
+    /// The lengths of the intervals of yarn number `yarn` at the start, mm. `first` is the number
+    /// of its first interval. If the yarn goes round and no point of it is held, its points are
+    /// spread evenly before.
+    fn lengths(&mut self, yarn: usize, first: usize, s: f64) -> Vec<f64> {
+        let RelaxationYarn { first: point, points, ends, .. } = self.yarns[yarn];
+        let own = point as usize..(point + points) as usize;
+        let way = (self.shift(yarn as u32) * self.start.repeat).extend(0.0);
+        let intervals = &self.intervals[first..];
+        let window = |number: i64| {
+            let count = intervals.len() as i64;
+            let round = number.div_euclid(count) as f64;
+            let interval = &intervals[number.rem_euclid(count) as usize];
+            self.points_of(&self.start, interval).map(|point| point + way * round)
+        };
+        let lengths: Vec<f64> =
+            (0..intervals.len() as i64).map(|number| self.arc(&window(number)).0).collect();
+        let sound = lengths.iter().all(|length| *length > 0.0 && length.is_finite());
+        let is_held = || self.pinned.iter().any(|point| own.contains(&(*point as usize)));
+        if ends == Ends::Open || !sound || is_held() {
+            return lengths;
+        }
+        let even = even::averaged(&lengths);
+        let places = even::spread(s, &lengths, &even, window);
+        self.start.points[own].copy_from_slice(&places);
+        even
     }
 
     /// The radius of the core at each control point, mm.
@@ -235,7 +261,7 @@ impl RelaxationPlan {
         self.mirror.as_deref()
     }
 
-    /// The state at the start.
+    /// The state at the start, with points spread along yarns that go round.
     #[must_use]
     pub const fn start(&self) -> &RelaxationState {
         &self.start
@@ -327,6 +353,7 @@ fn check(relaxation: &Relaxation<'_>) -> Result<(), RelaxationError> {
         if sound { Ok(()) } else { Err(RelaxationError::Setting { setting, value, low, high }) }
     };
     within("the length", relaxation.length, 0.5, 2.0)?;
+    within("the stiffness of the press", relaxation.press, 0.0, 1e12)?;
     within("the number of steps", relaxation.steps.into(), 1.0, 1e6)?;
     relaxation.boundary.check(layout)?;
     let (given, yarns) = (relaxation.elastic.len(), layout.yarns().len());

@@ -16,7 +16,7 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::elastic::Shells;
 use super::node::blend;
@@ -69,6 +69,9 @@ pub struct RelaxationPull {
     pub energy: Energy,
     /// The sum of the contact forces on the interval's samples, N.
     pub pressed: f64,
+    /// The stiffness of the interval's contacts, N/mm: the sum over its samples, each as if the
+    /// other yarns stood still.
+    pub stiffness: DMat3,
 }
 
 impl RelaxationPull {
@@ -86,7 +89,13 @@ impl RelaxationPull {
         let interval = &plan.intervals()[interval];
         let window = plan.points_of(state, interval);
         let energy = Energy::default();
-        let mut pull = Self { slopes: [DVec3::ZERO; 4], repeat: DVec2::ZERO, energy, pressed: 0.0 };
+        let mut pull = Self {
+            slopes: [DVec3::ZERO; 4],
+            repeat: DVec2::ZERO,
+            energy,
+            pressed: 0.0,
+            stiffness: DMat3::ZERO,
+        };
         pull.bend(plan, interval, &window);
         pull.lengthen(plan, interval, &window);
         pull.flatten(plan, interval, positions);
@@ -172,9 +181,11 @@ impl RelaxationPull {
                     continue;
                 }
                 let distance = square.sqrt();
-                let [energy, slope] = shells.energy(distance);
+                let [energy, slope, change] = shells.energy(distance);
                 self.energy.contact += 0.5 * energy * lengths;
-                force += apart.normalize_or_zero() * (slope * lengths);
+                let way = apart.normalize_or_zero();
+                force += way * (slope * lengths);
+                self.stiffness += outer(way, change * lengths);
             }
             self.pressed += force.length();
             self.add(&node.position, force);
@@ -207,4 +218,10 @@ impl RelaxationPull {
             self.repeat += slope.truncate() * shift * f64::from(round);
         }
     }
+}
+
+/// The matrix of a spring of stiffness `factor` along `way`.
+fn outer(way: DVec3, factor: f64) -> DMat3 {
+    let scaled = way * factor;
+    DMat3::from_cols(scaled * way.x, scaled * way.y, scaled * way.z)
 }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{Energy, RelaxationPlan, RelaxationPull, RelaxationState};
 use crate::BackendError;
@@ -24,6 +24,8 @@ pub struct RelaxationSeen {
     pub repeat: DVec2,
     /// The largest sum of contact forces on an interval, N.
     pub pressed: f64,
+    /// The contact stiffness of each interval, N/mm: see [`RelaxationPull::stiffness`].
+    pub stiffness: Vec<DMat3>,
 }
 
 /// A relaxation on one device.
@@ -51,8 +53,13 @@ impl RelaxationSeen {
     pub fn of(plan: &RelaxationPlan, pulls: &[RelaxationPull]) -> Self {
         let nothing = Energy::default();
         let points = plan.start().points.len();
-        let mut seen =
-            Self { energy: nothing, slopes: vec![DVec3::ZERO; points], repeat: DVec2::ZERO, pressed: 0.0 };
+        let mut seen = Self {
+            energy: nothing,
+            slopes: vec![DVec3::ZERO; points],
+            repeat: DVec2::ZERO,
+            pressed: 0.0,
+            stiffness: Vec::with_capacity(pulls.len()),
+        };
         for (interval, pull) in pulls.iter().enumerate() {
             for (point, slope) in plan.window(interval).into_iter().zip(pull.slopes) {
                 seen.slopes[point as usize] += slope;
@@ -60,6 +67,7 @@ impl RelaxationSeen {
             seen.energy = seen.energy.and(pull.energy);
             seen.repeat += pull.repeat;
             seen.pressed = seen.pressed.max(pull.pressed);
+            seen.stiffness.push(pull.stiffness);
         }
         seen
     }

@@ -34,6 +34,20 @@ pub enum FinishError {
         /// What the cloth is instead.
         cloth: &'static str,
     },
+    /// Strains that can't be measured.
+    #[error("strains lie between {low} and {high}, and each is greater than the one before")]
+    Strains {
+        /// The least strain allowed.
+        low: f64,
+        /// The greatest strain allowed.
+        high: f64,
+    },
+    /// Yarns that have passed through one another, or could not be compared.
+    #[error("yarns have passed through one another at a strain of {strain:.3}, or could not be compared")]
+    Passed {
+        /// The strain. It is 0 at rest.
+        strain: f64,
+    },
     /// A request for woven cloth that only knits can meet.
     #[error("woven cloth comes to rest by its crossings: {asked} is for knits")]
     Woven {

@@ -8,8 +8,10 @@ mod inspect;
 mod measures;
 mod settling;
 mod setts;
+mod strain;
 mod under;
 
 pub use check::CheckReport;
 pub use inspect::InspectReport;
 pub use settling::SettlingReport;
+pub use strain::StrainReport;

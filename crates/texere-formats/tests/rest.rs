@@ -1,11 +1,11 @@
 //! A design comes to rest with splines of the given tension.
 #![cfg(feature = "toml")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 use texere_contact::clearance;
 use texere_core::{Settings, YarnError};
 use texere_cpu::ParallelBackend;
-use texere_fabric::{FabricError, FinishError};
+use texere_fabric::{FabricError, FinishError, Finished, RestBy};
 use texere_formats::{Design, Refusal, RestReport, read};
 
 const CLOTH: &str = "weave = { notation = \"2/1\", ends = 9, picks = 9 }\nyarns.white.diameter_mm = 0.14\n\
@@ -46,8 +46,8 @@ fn cloth_has_the_tension_that_is_asked_for() {
 }
 
 /// A knit at rest by its energy has the gauge that its yarns have found. Written as a design file
-/// and read again, it rests as the cloth that it was, though control points now start elsewhere
-/// along the loops. Rib, which is soft, gets 4 % wider.
+/// and read again, it rests as the cloth that it was: jersey and rib to a thousandth. Locknit,
+/// which starts from other underlaps then, gets 2 % longer or shorter.
 #[test]
 fn a_knit_finds_its_gauge_and_keeps_it() {
     let device = ParallelBackend::open().unwrap();
@@ -71,8 +71,40 @@ fn a_knit_finds_its_gauge_and_keeps_it() {
         let written = String::from_utf8(written).unwrap();
         let again = design(&written).rest(&device).run().unwrap().design().structure.size_mm();
         for axis in 0..2 {
-            assert!((again[axis] / found[axis] - 1.0).abs() < 0.05, "{again:?} {found:?} {written}");
+            assert!((again[axis] / found[axis] - 1.0).abs() < 0.03, "{again:?} {found:?} {written}");
         }
+    }
+}
+
+/// The knits of the repository's designs whose search is short. Lace, cables, tulle and atlas come
+/// to rest, too, in 6 to 22 s each.
+const KNITS: [&str; 13] = [
+    "jersey",
+    "rib",
+    "garter",
+    "miss",
+    "tuck",
+    "interlock",
+    "milano",
+    "tricot",
+    "locknit",
+    "reverse-locknit",
+    "sharkskin",
+    "queenscord",
+    "net",
+];
+
+#[test]
+fn the_designs_knits_rest_by_their_energy() {
+    let device = ParallelBackend::open().unwrap();
+    for name in KNITS {
+        let path = format!("{}/../../designs/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut knit = read(&path).unwrap();
+        knit.finish.by = RestBy::Energy;
+        let cloth = knit.rest(&device).run().unwrap();
+        let RestReport::Finished(Finished::Relaxed(rest)) = cloth.report() else { panic!("{name}") };
+        assert!(rest.balanced && rest.is_linked(), "{name}: {} of {}", rest.unbalanced, rest.pressed);
+        assert!(rest.clearance.min >= 0.98, "{name}: {}", rest.clearance.min);
     }
 }
 

@@ -6,6 +6,7 @@ use texere_core::{Backend, Section, Settings, YarnPlace, Yarns};
 
 use crate::diagnosis::{ClothClearance, Cure, Diagnosis, Jams, Pieces, ThreadPlace};
 use crate::measures::size_mm;
+use crate::relaxation::strain_repeat;
 use crate::warp::WarpKnitted;
 use crate::weft::Knitted;
 use crate::{
@@ -201,12 +202,14 @@ impl Structure {
         }
     }
 
-    /// Strains a knit and measures how it pulls, how it gets narrower and how thick it is, at each
-    /// of `strains`: see [`Knitted::strain_test`] and [`WarpKnitted::strain_test`]. `tension` is
-    /// the tension of all yarns' splines, from 0 to below 1.
+    /// Relaxes one repeat of a knit, then holds it at each of `strains`, which rise, along the
+    /// courses, the wales or both. Measures how it pulls, how it gets narrower and how thick it is.
+    /// Yarns get the lengths that [`Knitted::relax`] and [`WarpKnitted::relax`] give them.
+    /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
-    /// **Errors**: [`FinishError::NoEnergy`] for a fabric that is no knit, and the errors of the
-    /// method that is called.
+    /// **Errors**: [`FinishError::NoEnergy`] for a fabric that is no knit, [`FinishError::Strains`]
+    /// for strains that don't rise, or are out of range, [`FinishError::Passed`] if yarns have
+    /// passed through one another, and the errors of [`Knitted::relax`] and [`WarpKnitted::relax`].
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -238,12 +241,16 @@ impl Structure {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<StrainTest, FinishError> {
-        match self {
-            Self::Weft(knit) => knit.strain_test(finish, tension, strains, backend, progress),
-            Self::Warp(knit) => knit.strain_test(finish, tension, strains, backend, progress),
-            Self::Woven(_) => Err(FinishError::NoEnergy { cloth: "this one is woven" }),
-            Self::Yarns(_) => Err(FinishError::NoEnergy { cloth: "these are yarns of no structure" }),
-        }
+        let (repeat, gauge) = match self {
+            Self::Weft(knit) => (knit.repeat_of_energy(tension)?, knit.gauge()),
+            Self::Warp(knit) => (knit.repeat_of_energy(tension)?, knit.gauge()),
+            Self::Woven(_) => return Err(FinishError::NoEnergy { cloth: "this one is woven" }),
+            Self::Yarns(_) => {
+                return Err(FinishError::NoEnergy { cloth: "these are yarns of no structure" });
+            }
+        };
+        let length = self.finish_of(&repeat, finish).length();
+        strain_repeat(&repeat, gauge, length, strains, backend, progress)
     }
 
     /// Stretches woven cloth along one set of its threads: see

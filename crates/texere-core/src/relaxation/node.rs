@@ -1,5 +1,7 @@
 //! The spline at places of an interval, as sums of its four control points.
 
+use std::ops::{AddAssign, Mul, SubAssign};
+
 use glam::DVec3;
 
 /// The nodes of Gauss's rule with three nodes on \[0, 1\], and their weights.
@@ -40,4 +42,23 @@ impl Node {
 #[inline]
 pub(super) fn blend(weights: &[f64; 4], points: &[DVec3; 4]) -> DVec3 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
+}
+
+/// What belongs to an interval's four control points, with what belongs to virtual ends given to
+/// the points that they are computed from. The interval is the first of an open yarn if it `opens`,
+/// and the last one if it `ends`.
+pub(super) fn folded<T>(mut four: [T; 4], [opens, ends]: [bool; 2]) -> [T; 4]
+where
+    T: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = T>,
+{
+    let [before, start, end, after] = &mut four;
+    if opens {
+        *start += *before * 2.0;
+        *end -= std::mem::take(before);
+    }
+    if ends {
+        *end += *after * 2.0;
+        *start -= std::mem::take(after);
+    }
+    four
 }

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::elastic::Shells;
-use super::node::blend;
+use super::node::{blend, folded};
 use super::{RelaxationInterval, RelaxationNear, RelaxationPlan, RelaxationState};
 use crate::Ends;
 
@@ -203,16 +203,7 @@ impl RelaxationPull {
     /// Moves what pulls at virtual ends to the points that they are computed from, and adds to the
     /// growth with the repeat what pulls at points in the yarn's other rounds.
     fn fold(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval) {
-        let [opens, ends] = plan.is_at_end(interval);
-        let [before, start, end, after] = &mut self.slopes;
-        if opens {
-            *start += *before * 2.0;
-            *end -= std::mem::take(before);
-        }
-        if ends {
-            *end += *after * 2.0;
-            *start -= std::mem::take(after);
-        }
+        self.slopes = folded(self.slopes, plan.is_at_end(interval));
         let shift = plan.shift(interval.yarn);
         for ((_, round), slope) in plan.window_of(interval).into_iter().zip(self.slopes) {
             self.repeat += slope.truncate() * shift * f64::from(round);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::{DMat3, DVec3};
 
-use super::node::blend;
+use super::node::{blend, folded};
 use super::{RelaxationInterval, RelaxationPlan, RelaxationState};
 use crate::backend::{filled, room};
 use crate::work_watch::WorkWatch;
@@ -148,21 +148,6 @@ fn add(
 /// first.
 fn crossed(vector: DVec3) -> DMat3 {
     DMat3::from_cols(vector.cross(DVec3::X), vector.cross(DVec3::Y), vector.cross(DVec3::Z))
-}
-
-/// The weights of control points when virtual ends are written as sums of the points that they are
-/// computed from.
-fn folded(mut weights: [f64; 4], [opens, ends]: [bool; 2]) -> [f64; 4] {
-    let [before, start, end, after] = &mut weights;
-    if opens {
-        *start += 2.0 * *before;
-        *end -= std::mem::take(before);
-    }
-    if ends {
-        *end += 2.0 * *after;
-        *start -= std::mem::take(after);
-    }
-    weights
 }
 
 /// A symmetric matrix, or its factor, by rows: each up to the diagonal, from the first column that

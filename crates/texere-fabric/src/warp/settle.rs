@@ -8,11 +8,9 @@ use texere_core::{Backend, Origin, Yarns};
 use super::bar::RACK;
 use super::{Bar, WarpKnitted};
 use crate::own::Own;
-use crate::relaxation::{relax_repeat, strain_repeat};
+use crate::relaxation::relax_repeat;
 use crate::settling::{Look, settle_repeat};
-use crate::{
-    Along, FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled, StrainTest,
-};
+use crate::{FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled};
 
 /// Range of the factor by which settling may change the length of a yarn: the range of
 /// [`Length::Given`].
@@ -88,29 +86,15 @@ impl WarpKnitted {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RelaxedKnit, FinishError> {
-        let repeat = self.smallest_repeat()?.with_tension(tension).map_err(FabricError::from)?;
+        let repeat = self.repeat_of_energy(tension)?;
         let length = self.finish_of(&repeat, finish).length();
         let placed = |repeat: &Repeat, yarns: &Yarns, look: Look<'_>| self.placed(repeat, yarns, look);
         relax_repeat(&repeat, self.gauge(), length, placed, backend, progress)
     }
 
-    /// Relaxes one repeat, then holds it at each of `strains`, which rise, along the courses, the
-    /// wales or both. Yarns get the lengths that [`WarpKnitted::relax`] gives them.
-    ///
-    /// **Errors**: [`FinishError::Strains`] for strains that don't rise, or are out of range,
-    /// [`FinishError::Passed`] if yarns have passed through one another, and the errors of
-    /// [`WarpKnitted::relax`].
-    pub fn strain_test(
-        &self,
-        finish: &Finish,
-        tension: f32,
-        strains: (Along, &[f64]),
-        backend: &dyn Backend,
-        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-    ) -> Result<StrainTest, FinishError> {
-        let repeat = self.smallest_repeat()?.with_tension(tension).map_err(FabricError::from)?;
-        let length = self.finish_of(&repeat, finish).length();
-        strain_repeat(&repeat, self.gauge(), length, strains, backend, progress)
+    /// The repeat that relaxes.
+    pub(crate) fn repeat_of_energy(&self, tension: f32) -> Result<Repeat, FinishError> {
+        Ok(self.smallest_repeat()?.with_tension(tension).map_err(FabricError::from)?)
     }
 
     /// `finish` with a rule for the lengths of [`WarpKnitted::repeat`], if it has none.

@@ -7,12 +7,9 @@ use texere_core::{Backend, Origin, Yarns};
 
 use super::{Knitted, Stitch};
 use crate::own::Own;
-use crate::relaxation::{relax_repeat, strain_repeat};
+use crate::relaxation::relax_repeat;
 use crate::settling::{Look, settle_repeat};
-use crate::{
-    Along, FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled, StrainTest,
-    settle,
-};
+use crate::{FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repeat, Settled, settle};
 
 /// Range of the factor by which settling may change the length of a yarn: the range of
 /// [`Length::Given`].
@@ -71,27 +68,8 @@ impl Knitted {
         Ok(relaxed)
     }
 
-    /// Relaxes one repeat, then holds it at each of `strains`, which rise, along the courses, the
-    /// wales or both. Loops get the lengths that [`Knitted::relax`] gives them.
-    ///
-    /// **Errors**: [`FinishError::Strains`] for strains that don't rise, or are out of range,
-    /// [`FinishError::Passed`] if yarns have passed through one another, and the errors of
-    /// [`Knitted::relax`].
-    pub fn strain_test(
-        &self,
-        finish: &Finish,
-        tension: f32,
-        strains: (Along, &[f64]),
-        backend: &dyn Backend,
-        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
-    ) -> Result<StrainTest, FinishError> {
-        let repeat = self.repeat_of_energy(tension)?;
-        let length = self.finish_of(&repeat, finish).length();
-        strain_repeat(&repeat, self.gauge(), length, strains, backend, progress)
-    }
-
     /// The repeat that relaxes.
-    fn repeat_of_energy(&self, tension: f32) -> Result<Repeat, FinishError> {
+    pub(crate) fn repeat_of_energy(&self, tension: f32) -> Result<Repeat, FinishError> {
         let repeat = self
             .smallest_repeat()?
             .ok_or(FinishError::NoEnergy { cloth: "this one is whole, with edges" })?;

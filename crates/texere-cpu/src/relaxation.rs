@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::BackendError;
-use texere_core::backend::{WorkWatch, filled, room_for};
+use texere_core::backend::{WorkWatch, room_for};
 use texere_core::relaxation::{
-    RelaxationLists, RelaxationPlan, RelaxationPull, RelaxationSeen, RelaxationState,
+    RelaxationLists, RelaxationPlan, RelaxationPull, RelaxationSamples, RelaxationSeen, RelaxationState,
 };
 
 use crate::asked::in_parts;
@@ -18,7 +18,7 @@ const PART: usize = 4096;
 #[derive(Debug)]
 pub(crate) struct RelaxationMemory {
     pub(crate) plan: Arc<RelaxationPlan>,
-    positions: Vec<glam::DVec3>,
+    samples: RelaxationSamples,
     lists: Option<RelaxationLists>,
     pulls: Vec<RelaxationPull>,
 }
@@ -26,10 +26,10 @@ pub(crate) struct RelaxationMemory {
 impl RelaxationMemory {
     /// Allocates the memory for `plan`.
     pub(crate) fn new(plan: Arc<RelaxationPlan>) -> Result<Self, BackendError> {
-        let positions = filled("samples", plan.samples(), glam::DVec3::ZERO)?;
+        let samples = RelaxationSamples::new(&plan)?;
         let mut pulls = Vec::new();
         room_for(&mut pulls, plan.intervals().len(), "pulls of intervals")?;
-        Ok(Self { plan, positions, lists: None, pulls })
+        Ok(Self { plan, samples, lists: None, pulls })
     }
 
     /// Measures a state. `pull_all` appends the pull of each interval, made by the function that it
@@ -45,26 +45,20 @@ impl RelaxationMemory {
             WorkWatch<'_>,
         ) -> ControlFlow<()>,
     ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
-        let Self { plan, positions, lists, pulls } = self;
-        let intervals = plan.intervals();
-        let sampled = in_parts(intervals.len(), PART, watch, |part| {
-            for interval in &intervals[part] {
-                plan.sample(state, interval, &mut positions[interval.sampled()]);
-            }
-        });
+        let Self { plan, samples, lists, pulls } = self;
+        let sampled = in_parts(plan.intervals().len(), PART, watch, |part| samples.place(plan, state, part));
         if sampled.is_break() {
             return Ok(ControlFlow::Break(()));
         }
         let lists = match lists.take().filter(|lists| lists.hold(plan, state, growth)) {
             Some(held) => lists.insert(held),
-            None => match RelaxationLists::new(plan, state, growth, positions, watch)? {
+            None => match RelaxationLists::new(plan, state, growth, samples, watch)? {
                 ControlFlow::Continue(made) => lists.insert(made),
                 ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
             },
         };
-        let pull = |interval: usize| {
-            RelaxationPull::new(plan, state, growth, interval, positions, lists.of(interval))
-        };
+        let pull =
+            |interval: usize| RelaxationPull::new(plan, state, growth, interval, samples, lists.of(interval));
         pulls.clear();
         let pulled = pull_all(&pull, pulls, watch);
         Ok(pulled.map_continue(|()| RelaxationSeen::of(plan, pulls)))

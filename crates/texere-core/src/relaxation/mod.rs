@@ -34,6 +34,7 @@ mod problem;
 mod pull;
 mod relaxer;
 mod run;
+mod samples;
 mod state;
 mod stiffness;
 
@@ -44,4 +45,5 @@ pub use problem::Relaxation;
 pub use pull::{Energy, RelaxationPull};
 pub use relaxer::{RelaxationSeen, Relaxer};
 pub use run::{Relaxed, relax, relax_grown};
+pub use samples::RelaxationSamples;
 pub use state::RelaxationState;

@@ -1,10 +1,12 @@
 //! The neighbours of each interval: the intervals whose samples may touch its own.
 
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::{RelaxationInterval, RelaxationPlan, RelaxationState};
+use super::samples::Ball;
+use super::{Elastic, RelaxationInterval, RelaxationPlan, RelaxationSamples, RelaxationState};
 use crate::backend::{filled, room, room_for};
 use crate::work_watch::WorkWatch;
 use crate::{BackendError, Ends};
@@ -18,7 +20,7 @@ const MARGIN: f64 = 0.6;
 const NEAR_FREE: u64 = 1 << 16;
 
 /// The most neighbours that intervals have in the mean, and the most copies of them that lie near.
-/// Stockinette of a yarn with a thick shell has 45 neighbours.
+/// Stockinette of a yarn with a thick shell has 45 at most.
 const NEAR_AN_INTERVAL: u64 = 256;
 
 /// The copies of intervals that are tried between two questions to the caller, a millisecond of a
@@ -48,14 +50,6 @@ pub struct RelaxationLists {
     images: DVec2,
 }
 
-/// The samples of an interval: the middle of the box that holds them, and the largest distance of
-/// one of them from it, mm.
-#[derive(Clone, Copy)]
-struct Ball {
-    middle: DVec3,
-    radius: f64,
-}
-
 /// A copy of an interval in an image of the repeat.
 #[derive(Clone, Copy)]
 struct Copied {
@@ -75,30 +69,29 @@ impl RelaxationLists {
         *grown == growth && 2.5 * moves.fold(0.0, f64::max) + images <= margin(plan)
     }
 
-    /// Lists the neighbours of all intervals. `positions` are those of all samples of `state`.
+    /// Lists the neighbours of all intervals. `samples` are those of `state`.
     ///
     /// **Errors**: [`BackendError::Crowded`] for too many neighbours, and short memory.
     pub fn new(
         plan: &RelaxationPlan,
         state: &RelaxationState,
         growth: f64,
-        positions: &[DVec3],
+        samples: &RelaxationSamples,
         watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), Self>, BackendError> {
         let intervals = plan.intervals();
-        let mut balls = room("intervals", intervals.len())?;
-        balls.extend(intervals.iter().map(|interval| Ball::around(interval, positions)));
+        let balls = samples.balls();
         let shells = plan.elastic().iter().map(|elastic| elastic.shell).fold(0.0, f64::max);
         let radius = balls.iter().map(|ball| ball.radius).fold(0.0, f64::max);
         let margin = margin(plan);
         let reach = 2.0 * (radius + growth * shells) + margin;
         let limit = (NEAR_FREE + NEAR_AN_INTERVAL * intervals.len() as u64).min(u64::from(u32::MAX));
         let crowded = BackendError::Crowded { chords: intervals.len() as u64, limit };
-        let Some(grid) = Grid::new(&balls, state.repeat, reach, limit)? else { return Err(crowded) };
+        let Some(grid) = Grid::new(balls, state.repeat, reach, limit)? else { return Err(crowded) };
         let (mut starts, mut near) = (room("neighbours", intervals.len() + 1)?, Vec::new());
         starts.push(0);
         let mut unasked = CANDIDATES;
-        for (interval, ball) in intervals.iter().zip(&balls) {
+        for (interval, ball) in intervals.iter().zip(balls) {
             if unasked >= CANDIDATES {
                 if watch().is_break() {
                     return Ok(ControlFlow::Break(()));
@@ -109,13 +102,17 @@ impl RelaxationLists {
             let beside = grid.beside(ball.middle).count();
             unasked += beside + 1;
             room_for(&mut near, beside, "neighbours of intervals")?;
-            let shell = plan.elastic()[interval.yarn as usize].shell;
+            let elastic = &plan.elastic()[interval.yarn as usize];
+            let window = following(elastic, growth);
             for copied in grid.beside(ball.middle) {
                 let other = &intervals[copied.interval as usize];
-                let shells = shell + plan.elastic()[other.yarn as usize].shell;
-                let reach = ball.radius + copied.ball.radius + growth * shells + margin;
-                if ball.middle.distance_squared(copied.ball.middle) < reach * reach {
+                let shells = elastic.shell + plan.elastic()[other.yarn as usize].shell;
+                if ball.touches(&copied.ball, growth * shells + margin) {
                     let along = plan.along([interval, other], copied.image);
+                    let furthest = (along - interval.length).abs().max((along + other.length).abs());
+                    if furthest < window {
+                        continue;
+                    }
                     near.push(RelaxationNear { interval: copied.interval, image: copied.image, along });
                 }
             }
@@ -137,6 +134,12 @@ impl RelaxationLists {
     pub fn of(&self, interval: usize) -> &[RelaxationNear] {
         &self.near[self.starts[interval] as usize..self.starts[interval + 1] as usize]
     }
+}
+
+/// The distance along a yarn up to which its samples follow one another and don't touch, mm, if it
+/// has the share `growth` of its thickness.
+pub(super) fn following(yarn: &Elastic, growth: f64) -> f64 {
+    PI * growth * yarn.shell
 }
 
 fn margin(plan: &RelaxationPlan) -> f64 {
@@ -164,17 +167,6 @@ impl RelaxationPlan {
                 if goes_on { way + f64::from(rounds) * yarn.length } else { f64::INFINITY }
             }
         }
-    }
-}
-
-impl Ball {
-    fn around(interval: &RelaxationInterval, positions: &[DVec3]) -> Self {
-        let own = &positions[interval.sampled()];
-        let far = DVec3::splat(f64::INFINITY);
-        let (low, high) = own.iter().fold((far, -far), |(low, high), at| (low.min(*at), high.max(*at)));
-        let middle = 0.5 * (low + high);
-        let radius = own.iter().map(|at| at.distance(middle)).fold(0.0, f64::max);
-        Self { middle, radius }
     }
 }
 

@@ -14,13 +14,12 @@
 //! Every pair of intervals is met twice, once from either side. So a pull only reads, and writes
 //! nothing but itself: the sums of a schedule do not depend on the number of threads.
 
-use std::f64::consts::PI;
-
 use glam::{DMat3, DVec2, DVec3};
 
 use super::elastic::Shells;
+use super::near::following;
 use super::node::{blend, folded};
-use super::{RelaxationInterval, RelaxationNear, RelaxationPlan, RelaxationState};
+use super::{RelaxationInterval, RelaxationNear, RelaxationPlan, RelaxationSamples, RelaxationState};
 use crate::Ends;
 
 /// The least square of a velocity, mm², so that no power of it underflows where a spline stands
@@ -76,17 +75,18 @@ pub struct RelaxationPull {
 
 impl RelaxationPull {
     /// The pull of interval number `interval` for yarns with the share `growth` of their thickness.
-    /// `positions` are those of all samples, and `near` are the neighbours of the interval.
+    /// `samples` are those of `state`, and `near` are the neighbours of the interval.
     #[must_use]
     pub fn new(
         plan: &RelaxationPlan,
         state: &RelaxationState,
         growth: f64,
         interval: usize,
-        positions: &[DVec3],
+        samples: &RelaxationSamples,
         near: &[RelaxationNear],
     ) -> Self {
-        let interval = &plan.intervals()[interval];
+        let number = interval;
+        let interval = &plan.intervals()[number];
         let window = plan.points_of(state, interval);
         let energy = Energy::default();
         let mut pull = Self {
@@ -98,9 +98,9 @@ impl RelaxationPull {
         };
         pull.bend(plan, interval, &window);
         pull.lengthen(plan, interval, &window);
-        pull.flatten(plan, interval, positions);
+        pull.flatten(plan, interval, samples.of(interval));
         for near in near {
-            pull.press(plan, state, growth, interval, positions, near);
+            pull.press(plan, state, growth, number, samples, near);
         }
         pull.fold(plan, interval);
         pull
@@ -137,8 +137,7 @@ impl RelaxationPull {
     }
 
     /// Adds the energy of what presses the cloth flat: that of springs between the yarn and z = 0.
-    fn flatten(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, positions: &[DVec3]) {
-        let own = &positions[interval.sampled()];
+    fn flatten(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval, own: &[DVec3]) {
         let stiffness = plan.press * interval.length / f64::from(interval.samples);
         for (at, node) in own.iter().zip(plan.nodes(interval)) {
             self.energy.press += 0.5 * stiffness * at.z * at.z;
@@ -152,32 +151,44 @@ impl RelaxationPull {
         plan: &RelaxationPlan,
         state: &RelaxationState,
         growth: f64,
-        interval: &RelaxationInterval,
-        positions: &[DVec3],
+        number: usize,
+        samples: &RelaxationSamples,
         near: &RelaxationNear,
     ) {
-        let other = &plan.intervals()[near.interval as usize];
+        let [interval, other] = [number, near.interval as usize].map(|number| &plan.intervals()[number]);
         let yarns = [interval, other].map(|interval| &plan.elastic()[interval.yarn as usize]);
         let shells = Shells::new(yarns, growth);
-        let (reach, window) = (shells.reach(), PI * growth * yarns[0].shell);
+        let image = DVec2::new(f64::from(near.image[0]), f64::from(near.image[1]));
+        let way = (image * state.repeat).extend(0.0);
+        let reach = shells.reach();
+        let [own, mut ball] = [number, near.interval as usize].map(|number| samples.balls()[number]);
+        ball.middle += way;
+        if !own.touches(&ball, reach) {
+            return;
+        }
+        let window = following(yarns[0], growth);
+        let within = (reach + ball.radius).powi(2);
         let yarn = &plan.yarns()[interval.yarn as usize];
         // A closed yarn also follows itself the other way round.
         let turn = if yarn.ends == Ends::Closed { yarn.length } else { f64::INFINITY };
-        let image = DVec2::new(f64::from(near.image[0]), f64::from(near.image[1]));
-        let way = (image * state.repeat).extend(0.0);
         let parts = [interval, other].map(|interval| interval.length / f64::from(interval.samples));
         let lengths = parts[0] * parts[1];
         let mut all = DVec3::ZERO;
-        for ((own, at), node) in positions[interval.sampled()].iter().enumerate().zip(plan.nodes(interval)) {
+        for ((own, at), node) in samples.of(interval).iter().enumerate().zip(plan.nodes(interval)) {
+            if at.distance_squared(ball.middle) >= within {
+                continue;
+            }
             let (mut force, at) = (DVec3::ZERO, *at - way);
             // The distance along the yarn from this sample to the other's first.
             let along = near.along + 0.5 * (parts[1] - parts[0]) - own as f64 * parts[0];
-            for (number, place) in positions[other.sampled()].iter().enumerate() {
+            for (number, place) in samples.of(other).iter().enumerate() {
                 let apart = at - *place;
                 let square = apart.length_squared();
+                if square >= reach * reach {
+                    continue;
+                }
                 let along = (along + number as f64 * parts[1]).abs();
-                let follows = along < window || turn - along < window;
-                if square >= reach * reach || follows {
+                if along < window || turn - along < window {
                     continue;
                 }
                 let distance = square.sqrt();

@@ -48,12 +48,12 @@ fn a_stream_peaks_at_two_chunks() {
     }
 }
 
-/// A mesh of 5,000 yarns and 240 MB of vertices is written with chunks of 8 MiB. Besides the
+/// A mesh of 2,000 yarns and 96 MB of vertices is written with chunks of 8 MiB. Besides the
 /// control points and two chunks, a writer may take 3 kB for each yarn. Most of this is the
 /// document of glTF.
 fn a_file_peaks_at_two_chunks_in_any_format() {
     let mut yarns = Yarns::builder();
-    for end in 0..5000 {
+    for end in 0..2000 {
         let place = |pick: u32| ControlPoint::new(end as f32, pick as f32, (pick % 2) as f32 * 0.3, 0.2);
         yarns.yarn(
             Yarn { origin: Origin::End(end + 1), ..Yarn::default() },
@@ -63,7 +63,7 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
     let yarns = yarns.build().unwrap();
     let device = texere::open("cpu").unwrap();
     let limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
-    let told = size_of_val(yarns.points()) + 2 * (2 * (8 << 20) + (1 << 20)) + 5000 * 3000;
+    let told = size_of_val(yarns.points()) + 2 * (2 * (8 << 20) + (1 << 20)) + 2000 * 3000;
     let formats =
         Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
     let with = [Format::Glb, Format::CompressedGlb, Format::Ply, Format::Usda]

@@ -185,13 +185,13 @@ fn leaked(yarns: Yarns) -> &'static Yarns {
 }
 
 /// Caps have normals of their own, and can't share vertices with the tube. Each cap is a piece of
-/// its own.
+/// its own. Files of meshes that are cut in other ways have equal bytes
+/// (`a_file_has_the_same_bytes_however_its_mesh_is_cut`).
 #[test]
-fn a_yarn_is_one_piece_however_it_is_cut() {
+fn a_yarn_is_one_piece() {
+    let way = ways()[0];
     for (yarns, open) in [(leaked(fabric()), 4), (leaked(long_yarn()), 1)] {
-        for (caps, way) in
-            [false, true].into_iter().flat_map(|caps| ways().into_iter().map(move |way| (caps, way)))
-        {
+        for caps in [false, true] {
             let expected = yarns.layout().yarns().len() + if caps { 2 * open } else { 0 };
             each_file(
                 &WHOLE,

@@ -463,7 +463,7 @@ namespace Texere
 
         /// <summary>
         ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
-        ///  design asks for it. `run` may be null.
+        ///  design asks for it. Rest by energy is worked out on the CPU if the device can't. `run` may be null.
         ///
         ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
         ///  did. Threads of woven cloth that can't settle at all stay where the structure places them. The
@@ -668,7 +668,7 @@ namespace Texere
 
         /// <summary>
         ///  Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-        ///  again.
+        ///  again. The bending stiffness that a design gives its yarn stays.
         ///
         ///  Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
         ///  have.
@@ -1855,7 +1855,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A material of yarns.
+    ///  A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
+    ///  soft cotton; only design files state another one.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_material

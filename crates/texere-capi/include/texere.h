@@ -523,7 +523,8 @@ typedef struct texere_point {
   float half_height;
 } texere_point;
 
-// A material of yarns.
+// A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
+// soft cotton; only design files state another one.
 typedef struct texere_material {
   // Its name, UTF-8.
   const char *name;
@@ -1362,7 +1363,7 @@ enum texere_status texere_check_measures_json(const struct texere_check *check, 
 void texere_check_free(struct texere_check *check);
 
 // Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
-// design asks for it. `run` may be null.
+// design asks for it. Rest by energy is worked out on the CPU if the device can't. `run` may be null.
 //
 // The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
 // did. Threads of woven cloth that can't settle at all stay where the structure places them. The
@@ -1550,7 +1551,7 @@ enum texere_status texere_live_yarn(const struct texere_live *live,
                                     struct texere_yarn *what);
 
 // Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-// again.
+// again. The bending stiffness that a design gives its yarn stays.
 //
 // Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
 // have.

@@ -4,7 +4,7 @@ use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 
 use texere::check::Measures;
-use texere::rest::RestReport;
+use texere::rest::{RestReport, stand_in};
 
 use crate::argument::{lend, numbered};
 use crate::design::texere_design;
@@ -83,7 +83,7 @@ impl Cloth {
 }
 
 /// Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
-/// design asks for it. `run` may be null.
+/// design asks for it. Rest by energy is worked out on the CPU if the device can't. `run` may be null.
 ///
 /// The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
 /// did. Threads of woven cloth that can't settle at all stay where the structure places them. The
@@ -101,9 +101,11 @@ pub unsafe extern "C" fn texere_cloth_rest(
         // SAFETY: the caller vouches for `out`.
         unsafe { clear(out) }?;
         let (design, device, run) = (get(design)?, get(device)?, get_any(run)?);
-        let cloth = (*design).clone().rest(&*device.backend).progress(reporter(run)).run()?;
+        let cpu = stand_in(design.finish.by, &*device.backend)?;
+        let backend = cpu.as_deref().unwrap_or(&*device.backend);
+        let cloth = (*design).clone().rest(backend).progress(reporter(run)).run()?;
         // SAFETY: as above.
-        unsafe { give(out, Cloth::new(cloth, &device.backend.info().name)) }
+        unsafe { give(out, Cloth::new(cloth, &backend.info().name)) }
     })
 }
 

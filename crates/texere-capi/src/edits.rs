@@ -182,7 +182,7 @@ pub unsafe extern "C" fn texere_live_yarn(
 }
 
 /// Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-/// again.
+/// again. The bending stiffness that a design gives its yarn stays.
 ///
 /// Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
 /// have.
@@ -198,7 +198,10 @@ pub unsafe extern "C" fn texere_live_set_material(
         // the name.
         let material = unsafe { material.read().read("material") }?;
         let [number] = self::number([("number", number)])?;
-        alone(live, |editing| Ok(editing.live.set_material(number, material)?))
+        alone(live, |editing| {
+            let bending = editing.live.materials().get(number).and_then(|material| material.bending);
+            Ok(editing.live.set_material(number, Material { bending, ..material })?)
+        })
     })
 }
 
@@ -218,7 +221,7 @@ pub unsafe extern "C" fn texere_live_material(
         let [number] = self::number([("number", number)])?;
         let found = alone(live, |editing| {
             let materials = editing.live.materials();
-            let Some(Material { name, srgb, tex, hairiness }) = materials.get(number) else {
+            let Some(Material { name, srgb, tex, hairiness, .. }) = materials.get(number) else {
                 let materials = materials.len();
                 return Err(texere::mesh::LiveError::NoMaterial { material: number, materials }.into());
             };

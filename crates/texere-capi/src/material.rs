@@ -9,7 +9,8 @@ use crate::error::guard;
 use crate::failure::Failure;
 use crate::status::texere_status;
 
-/// A material of yarns.
+/// A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
+/// soft cotton; only design files state another one.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_material {
@@ -139,7 +140,7 @@ impl texere_material {
         }
         // SAFETY: the caller vouches for it.
         let text = unsafe { text(&format!("{name}.name"), text_at, name_length) }?;
-        Ok(Material { name: text.into(), srgb, tex: (tex > 0.0).then_some(tex), hairiness })
+        Ok(Material { name: text.into(), srgb, tex: (tex > 0.0).then_some(tex), hairiness, bending: None })
     }
 }
 

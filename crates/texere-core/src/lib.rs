@@ -78,7 +78,7 @@ pub use device::{Backend, BackendError, Capabilities, DeviceInfo, DeviceKind};
 pub use frame::Frame;
 pub use layout::{Layout, Origin, TWIST_LIMIT, Yarn, check_tension};
 pub use live::Change;
-pub use material::{HAIRINESS_LIMIT, Material};
+pub use material::{BENDING_LIMITS, HAIRINESS_LIMIT, Material};
 pub use memory::OutOfMemory;
 pub use mesh::{Mesh, MeshPiece};
 pub use packed::{PackedVertex, Quantum};

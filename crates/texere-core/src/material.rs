@@ -1,10 +1,10 @@
-//! Materials: the look and the weight of yarns.
+//! Materials: the look, the weight and the bending stiffness of yarns.
 
-/// A yarn's material. Many yarns can share a material. Changing a material changes no geometry.
+/// A yarn's material. Many yarns can share a material. Changing a material moves no control point.
 ///
 /// ```
 /// use texere_core::Material;
-/// let cotton = Material { name: "cotton".into(), srgb: [236, 229, 212], tex: Some(30.0), hairiness: 6.0 };
+/// let cotton = Material { name: "cotton".into(), srgb: [236, 229, 212], tex: Some(30.0), ..Material::default() };
 /// assert_eq!(cotton.linear_rgb()[0], (236.0f32 / 255.0 + 0.055).powf(2.4) / 1.055f32.powf(2.4));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -19,16 +19,24 @@ pub struct Material {
     /// testers). It is 0 for yarn without such fibres, for example filament, and
     /// [`HAIRINESS_LIMIT`] at most. Only pictures show these fibres.
     pub hairiness: f32,
+    /// Bending stiffness B, N mm²: the moment for a curvature of 1/mm, within [`BENDING_LIMITS`].
+    /// Knits that come to rest by their energy use it. None for that of soft cotton of equal tex,
+    /// or without tex, of equal thickness.
+    pub bending: Option<f32>,
 }
 
 /// The largest hairiness that is accepted. Spun yarns have 3 to 11 on Uster's testers, and coarse
 /// woollen yarns a little more.
 pub const HAIRINESS_LIMIT: f32 = 30.0;
 
+/// The least and the greatest bending stiffness that are accepted, N mm²: that of a thin fibre, and
+/// that of a rope.
+pub const BENDING_LIMITS: [f32; 2] = [1e-9, 1e6];
+
 impl Default for Material {
     /// Undyed yarn of unknown weight without hairs.
     fn default() -> Self {
-        Self { name: "undyed".into(), srgb: [232, 226, 212], tex: None, hairiness: 0.0 }
+        Self { name: "undyed".into(), srgb: [232, 226, 212], tex: None, hairiness: 0.0, bending: None }
     }
 }
 

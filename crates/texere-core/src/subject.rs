@@ -185,9 +185,10 @@ impl YarnError {
             | Self::NotFinite { .. }
             | Self::TooFar { .. }
             | Self::Size { .. } => Subject::Size,
-            Self::UnknownMaterial { .. } | Self::Hairiness { .. } | Self::LinearDensity { .. } => {
-                Subject::Color(Origin::Unknown)
-            }
+            Self::UnknownMaterial { .. }
+            | Self::Hairiness { .. }
+            | Self::LinearDensity { .. }
+            | Self::Bending { .. } => Subject::Color(Origin::Unknown),
             Self::UnknownSection { .. } | Self::Section { .. } => Subject::Section(Origin::Unknown),
             Self::Twist { .. } => Subject::Twist(Origin::Unknown),
             Self::OffsetCount { .. }

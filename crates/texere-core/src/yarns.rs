@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use crate::stand::Stand;
 use crate::{
-    COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Layout, Material, RADIUS_MAX, RADIUS_MIN, Section, Yarn,
+    BENDING_LIMITS, COORDINATE_LIMIT, ControlPoint, HAIRINESS_LIMIT, Layout, Material, RADIUS_MAX,
+    RADIUS_MIN, Section, Yarn,
 };
 
 pub use self::error::YarnError;
@@ -284,16 +285,19 @@ fn check_materials(layout: &Layout, materials: &[Material]) -> Result<(), YarnEr
 
 /// Checks a material. Its number, `material`, only appears in errors.
 ///
-/// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\], and
-/// [`YarnError::LinearDensity`] for a tex that is no positive number.
+/// **Errors**: [`YarnError::Hairiness`] outside \[0, [`HAIRINESS_LIMIT`]\],
+/// [`YarnError::LinearDensity`] for a tex that is no positive number, and [`YarnError::Bending`]
+/// for a bending stiffness outside of [`BENDING_LIMITS`].
 ///
 /// ```
 /// use texere_core::{Material, check_material};
 /// assert!(check_material(0, &Material::default()).is_ok());
 /// assert!(check_material(0, &Material { hairiness: f32::NAN, ..Material::default() }).is_err());
 /// assert!(check_material(0, &Material { tex: Some(-30.0), ..Material::default() }).is_err());
+/// assert!(check_material(0, &Material { bending: Some(0.0), ..Material::default() }).is_err());
 /// ```
-pub fn check_material(material: usize, &Material { tex, hairiness, .. }: &Material) -> Result<(), YarnError> {
+pub fn check_material(material: usize, each: &Material) -> Result<(), YarnError> {
+    let &Material { tex, hairiness, bending, .. } = each;
     if !(0.0..=HAIRINESS_LIMIT).contains(&hairiness) {
         return Err(YarnError::Hairiness { material, hairiness, limit: HAIRINESS_LIMIT });
     }
@@ -302,7 +306,11 @@ pub fn check_material(material: usize, &Material { tex, hairiness, .. }: &Materi
     {
         return Err(YarnError::LinearDensity { material, tex });
     }
-    Ok(())
+    let [low, high] = BENDING_LIMITS;
+    match bending.filter(|bending| !(low..=high).contains(bending)) {
+        Some(bending) => Err(YarnError::Bending { material, bending, low, high }),
+        None => Ok(()),
+    }
 }
 
 /// Checks the control points of a yarn. The yarn's number, `yarn`, only appears in errors.

@@ -24,9 +24,13 @@ pub(crate) const HAS_UPS: u32 = 1;
 /// The bit of the header that says that sources follow the control points.
 pub(crate) const HAS_SOURCES: u32 = 2;
 
+/// The bit of the header that says that bending stiffnesses follow the materials.
+pub(crate) const HAS_BENDING: u32 = 4;
+
 pub(crate) const HEADER_BYTES: u64 = 60;
 /// Bytes of a material, without the letters of its name.
 pub(crate) const MATERIAL_BYTES: u64 = 20;
+pub(crate) const BENDING_BYTES: u64 = 4;
 /// Bytes of a section, without the corners of a polygon.
 pub(crate) const SECTION_BYTES: u64 = 12;
 pub(crate) const CORNER_BYTES: u64 = 8;
@@ -67,7 +71,8 @@ pub(crate) mod origin {
 pub(crate) fn flags(yarns: &Yarns) -> u32 {
     let ups = if yarns.ups().is_some() { HAS_UPS } else { 0 };
     let sources = if yarns.sources().is_some() { HAS_SOURCES } else { 0 };
-    ups | sources
+    let bends = yarns.materials().iter().any(|material| material.bending.is_some());
+    ups | sources | if bends { HAS_BENDING } else { 0 }
 }
 
 /// Bytes of a control point. Its up direction and its source are included if `flags`, the header's

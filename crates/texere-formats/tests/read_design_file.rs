@@ -90,6 +90,30 @@ fn yarns_of_every_structure_have_their_hairiness() {
     }
 }
 
+/// A bending stiffness that a design states counts, else that of its fibre and tex. Of cotton, and
+/// of yarn without tex, the thickness says it.
+#[test]
+fn yarns_bend_as_their_fibres_do() {
+    for (said, bending) in [
+        ("tex = 20.0", None),
+        ("diameter_mm = 0.2\nfibre = \"wool\"", None),
+        ("tex = 20.0\nfibre = \"cotton\"", None),
+        ("tex = 20.0\nfibre = \"polyester\"", Some(20.0 * 9.46e-5)),
+        ("cotton_count = 29.526\nfibre = \"polyester\"", Some(20.0 * 9.46e-5)),
+        ("tex = 20.0\nfibre = \"wool\"\nbending_stiffness = 0.045", Some(0.045)),
+        ("diameter_mm = 0.2\nbending_stiffness = 0.045", Some(0.045)),
+    ] {
+        let text =
+            format!("[knit]\nchart = \"k\"\nrepeat = [4, 4]\nloop_length_mm = 3.2\n[yarns.ecru]\n{said}\n");
+        let yarns = read_text(&text).unwrap().structure.yarns().unwrap();
+        let material = yarns.layout().yarns()[0].material as usize;
+        match (yarns.materials()[material].bending, bending) {
+            (Some(found), Some(bending)) => assert!((found / bending - 1.0).abs() < 2e-3, "{said}: {found}"),
+            (found, bending) => assert_eq!(found, bending, "{said}"),
+        }
+    }
+}
+
 #[test]
 fn sections_have_their_numbers() {
     for (text, section) in [
@@ -597,15 +621,20 @@ fn a_yarn_keeps_its_own_density_over_that_of_its_packed_fibre() {
 /// The limit that a refusal names is itself allowed.
 #[test]
 fn limits_themselves_are_taken() {
-    let limits = ["stiffness", "firmness", "flatness", "hairiness", "packing", "least_area"].map(|key| {
-        let outside = DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = 1e6"));
+    let keys =
+        ["stiffness", "bending_stiffness", "firmness", "flatness", "hairiness", "packing", "least_area"];
+    let limits = keys.map(|key| {
+        let outside = DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = 1e7"));
         let Err(ReadError::OutOfRange { low, high, .. }) = read_text(&outside) else { panic!("{key}") };
         (key, [low, high])
     });
     for (key, ends) in limits {
         for limit in ends {
             let told = read_text(&DENIM.replace("tex = 84.0", &format!("tex = 84.0\n{key} = {limit}")));
-            assert!(told.is_ok(), "{key} = {limit}: {}", told.unwrap_err());
+            let design = told.unwrap_or_else(|error| panic!("{key} = {limit}: {error}"));
+            // What can be read can be written.
+            let folder = tempfile::tempdir().unwrap();
+            texere_formats::write::toml(&design, folder.path().join("again.toml")).unwrap();
         }
     }
     let cloth = cloth(&DENIM.replace("tex = 84.0", "tex = 84.0\nflatness = 0.1"));

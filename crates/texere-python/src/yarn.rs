@@ -19,10 +19,11 @@ use texere::yarn::{
 /// (width over height in the cloth, 0.1 to 10), ``stiffness`` (0.01 to 100, 1 for cotton) and
 /// ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to 100, 1 for cotton of
 /// ordinary twist; if it is not given, it follows from ``twist_per_m``, where this is given) count
-/// in woven cloth alone, as do ``fibre`` (``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``,
-/// ``"silk"``, ``"viscose"`` or ``"wool"``) and ``packing``, the largest share of its section that
-/// the fibre of a squeezed yarn fills, up to 0.91. ``hairiness``, 0 to 30, is the H of Uster
-/// testers; pictures show it.
+/// in woven cloth alone, as does ``packing``, the largest share of its section that the fibre of a
+/// squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm², counts in knits that rest
+/// by their energy; if it is not given, it follows from ``fibre`` and ``tex``. ``fibre`` is ``"cotton"``,
+/// ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``, ``"viscose"`` or ``"wool"``.
+/// ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
 ///
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>
@@ -50,7 +51,7 @@ pub(crate) struct YarnSpec {
 #[pymethods]
 impl YarnSpec {
     #[new]
-    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=None, section=None, flatness=1.0, stiffness=1.0, firmness=None, hairiness=0.0, fibre="cotton", packing=PACKING))]
+    #[pyo3(signature = (*, diameter_mm=None, tex=None, density=None, color=None, name="yarn", twist_per_m=None, section=None, flatness=1.0, stiffness=1.0, firmness=None, hairiness=0.0, fibre="cotton", packing=PACKING, bending_stiffness=None))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn new(
         diameter_mm: Option<f64>,
@@ -66,6 +67,7 @@ impl YarnSpec {
         hairiness: f32,
         fibre: &str,
         packing: f64,
+        bending_stiffness: Option<f32>,
     ) -> PyResult<Self> {
         let Some(fibre) = Fibre::named(fibre) else {
             let names = Fibre::ALL.map(Fibre::name).join(", ");
@@ -88,7 +90,10 @@ impl YarnSpec {
         let srgb = color.map_or(Ok(Material::default().srgb), srgb)?;
         let section = section.map_or(Ok(Section::Circle), self::section)?;
         section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
-        let material = Material { name: name.into(), srgb, tex, hairiness };
+        let tex_bent = tex.filter(|_| fibre != Fibre::Cotton);
+        let of_fibre = tex_bent.map(|tex| fibre.bending_stiffness(f64::from(tex)) as f32);
+        let bending = bending_stiffness.or(of_fibre);
+        let material = Material { name: name.into(), srgb, tex, hairiness, bending };
         let twist = twist_from_turns_per_m(twist_per_m.unwrap_or(0.0)) as f32;
         let of_twist = twist_per_m.map(|_| firmness_from_twist(twist, (diameter_mm / 2.0) as f32));
         let firmness = firmness.or(of_twist).unwrap_or(1.0);

@@ -69,6 +69,10 @@ CALLS = {
     "a section of NaN": lambda: texere.Yarn(diameter_mm=1, section=("lenticular", 1.5, NAN)),
     "a section of four billion plies": lambda: texere.Yarn(diameter_mm=1, section=("lobed", 4_000_000_000)),
     "a twist of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, twist_per_m=NAN)),
+    "a bending stiffness of 0": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, bending_stiffness=0)).placed(),
+    "a bending stiffness of nan": lambda: woven(
+        warp=texere.Yarn(diameter_mm=0.2, bending_stiffness=float("nan"))
+    ).placed(),
     "a hairiness of 1000": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, hairiness=1000)).placed(),
     "a firmness of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, firmness=NAN)),
     "a stiffness of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, stiffness=NAN)),

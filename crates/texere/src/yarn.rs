@@ -9,7 +9,7 @@
 //! | turn a yarn count into a diameter, turns per metre into twist, twist into firmness | [`diameter_mm`], [`tex_from_cotton_count`] and the like, [`twist_from_turns_per_m`], [`firmness_from_twist`] |
 //! | know how long yarns are | [`length_mm`], [`lengths_mm`] |
 //! | know which yarns lie under a point of the cloth | [`yarns_under`], which gives a [`YarnPlace`] for each |
-//! | know the limits of control points and yarns | [`COORDINATE_LIMIT`], [`RADIUS_MIN`], [`RADIUS_MAX`], [`TWIST_LIMIT`], [`HAIRINESS_LIMIT`] |
+//! | know the limits of control points and yarns | [`COORDINATE_LIMIT`], [`RADIUS_MIN`], [`RADIUS_MAX`], [`TWIST_LIMIT`], [`HAIRINESS_LIMIT`], [`BENDING_LIMITS`] |
 //!
 //! ```
 //! use texere::yarn::twist_from_turns_per_m;
@@ -25,9 +25,9 @@
 
 pub use texere_contact::{length_mm, lengths_mm, yarns_under};
 pub use texere_core::{
-    Boundary, BoundaryError, COORDINATE_LIMIT, Ends, HAIRINESS_LIMIT, Halves, Layout, Material, Origin,
-    Placement, RADIUS_MAX, RADIUS_MIN, Section, SectionError, SectionPoint, TWIST_LIMIT, YarnError,
-    YarnPlace, YarnsBuilder,
+    BENDING_LIMITS, Boundary, BoundaryError, COORDINATE_LIMIT, Ends, HAIRINESS_LIMIT, Halves, Layout,
+    Material, Origin, Placement, RADIUS_MAX, RADIUS_MIN, Section, SectionError, SectionPoint, TWIST_LIMIT,
+    YarnError, YarnPlace, YarnsBuilder,
 };
 pub use texere_fabric::{
     COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS, density_from_tex, diameter_mm,

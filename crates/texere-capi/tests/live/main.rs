@@ -128,7 +128,13 @@ const EDITS: [Edit; 8] = [
             c!(texere_live_set_material(live, 1, &material))
         },
         |live| {
-            let silk = Material { name: "silk".into(), srgb: [1, 2, 3], tex: Some(8.0), hairiness: 2.0 };
+            let silk = Material {
+                name: "silk".into(),
+                srgb: [1, 2, 3],
+                tex: Some(8.0),
+                hairiness: 2.0,
+                bending: None,
+            };
             live.set_material(1, silk).unwrap();
         },
     ),

@@ -353,7 +353,7 @@ fn check(relaxation: &Relaxation<'_>) -> Result<(), RelaxationError> {
         if sound { Ok(()) } else { Err(RelaxationError::Setting { setting, value, low, high }) }
     };
     within("the length", relaxation.length, 0.5, 2.0)?;
-    within("the stiffness of the press", relaxation.press, 0.0, 1e12)?;
+    within("the stiffness of the press", relaxation.press, 0.0, 1e30)?;
     within("the number of steps", relaxation.steps.into(), 1.0, 1e6)?;
     relaxation.boundary.check(layout)?;
     let (given, yarns) = (relaxation.elastic.len(), layout.yarns().len());

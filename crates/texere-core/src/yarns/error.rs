@@ -143,6 +143,18 @@ pub enum YarnError {
         /// Its linear density, tex.
         tex: f32,
     },
+    /// A bending stiffness that is NaN, too small or too large.
+    #[error("material {material} has a bending stiffness of {bending} N mm², outside {low} to {high} N mm²")]
+    Bending {
+        /// Number of the material.
+        material: usize,
+        /// Its bending stiffness, N mm².
+        bending: f32,
+        /// The least that is accepted, N mm².
+        low: f32,
+        /// The greatest that is accepted, N mm².
+        high: f32,
+    },
     /// A hairiness that is NaN, below 0 or too large.
     #[error("material {material} has a hairiness of {hairiness}, which is not between 0 and {limit}")]
     Hairiness {

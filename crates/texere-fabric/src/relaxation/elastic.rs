@@ -1,7 +1,9 @@
-//! The elastic properties of yarns that a design says nothing of.
+//! The elastic properties of yarns: what a design says of them, and what is assumed of the rest.
 
-use texere_core::Yarns;
 use texere_core::relaxation::Elastic;
+use texere_core::{Material, Yarn, Yarns};
+
+use crate::Fibre;
 
 /// The radius of the soft shell, in radii of the yarn. Fibres that stand off a spun yarn are felt
 /// before the yarns themselves touch. Shells of 1.3 to 2.3 radii were tried on plain jersey of
@@ -23,14 +25,6 @@ const EXTENSION: f64 = 100.0;
 /// it, lace and cables crumple; with three times as much, rib does not draw in (`rib_draws_in`).
 const PRESS: f64 = 0.015;
 
-/// Bending stiffness for each tex, N mm² / tex: that of cotton fibres which are free to slide, `η E
-/// T / (4 π ρ)` with a shape factor η of 0.7, a modulus E of 5 N/tex, fibres of T = 0.17 tex and
-/// the density ρ of 1.52 g/cm³.
-///
-/// **Source**: Morton and Hearle, Physical Properties of Textile Fibres, 4th edition, 2008, chapter
-/// 17.
-const BENDING: f64 = 3.1e-5;
-
 /// The diameter of a cotton yarn of 1 tex, mm.
 ///
 /// **Source**: Peirce, "The geometry of cloth structure", Journal of the Textile Institute 28,
@@ -48,8 +42,12 @@ const DIAMETER: f64 = 0.0373;
 /// ```
 #[must_use]
 pub fn elastic_of_radius(radius_mm: f64) -> Elastic {
-    let tex = (2.0 * radius_mm / DIAMETER).powi(2);
-    let (bending, shell) = (BENDING * tex, SHELL * radius_mm);
+    elastic_of(radius_mm, Fibre::Cotton.bending_stiffness((2.0 * radius_mm / DIAMETER).powi(2)))
+}
+
+/// The elastic properties of a yarn of this radius, mm, and this bending stiffness, N mm².
+fn elastic_of(radius_mm: f64, bending: f64) -> Elastic {
+    let shell = SHELL * radius_mm;
     Elastic {
         bending,
         core: radius_mm,
@@ -59,14 +57,21 @@ pub fn elastic_of_radius(radius_mm: f64) -> Elastic {
     }
 }
 
-/// The properties of all yarns, by the mean of their half widths and half heights.
+/// The properties of all yarns, by the mean of their half widths and half heights, and by the
+/// bending stiffness of their materials.
 pub(super) fn of_yarns(yarns: &Yarns) -> Vec<Elastic> {
     let mean = |yarn: usize| {
         let points = yarns.yarn_points(yarn).unwrap_or(&[]);
         let halves = points.iter().map(|point| f64::from(point.half_width() + point.half_height()));
         0.5 * halves.sum::<f64>() / points.len().max(1) as f64
     };
-    (0..yarns.layout().yarns().len()).map(|yarn| elastic_of_radius(mean(yarn))).collect()
+    let own = |(yarn, each): (usize, &Yarn)| {
+        let Material { tex, bending, .. } = &yarns.materials()[each.material as usize];
+        let of_tex = || tex.map(|tex| Fibre::Cotton.bending_stiffness(f64::from(tex)));
+        let bending = bending.map(f64::from).or_else(of_tex);
+        bending.map_or_else(|| elastic_of_radius(mean(yarn)), |bending| elastic_of(mean(yarn), bending))
+    };
+    yarns.layout().yarns().iter().enumerate().map(own).collect()
 }
 
 /// The stiffness that presses a cloth of these yarns flat, N/mm²: the mean of what each asks for.

@@ -37,11 +37,15 @@ fn knit(chart: &str, gauge: Gauge) -> Knitted {
 }
 
 fn knit_of(chart: &str, gauge: Gauge, radius: f64) -> Knitted {
+    knit_of_material(chart, gauge, radius, Material::default())
+}
+
+fn knit_of_material(chart: &str, gauge: Gauge, radius: f64, material: Material) -> Knitted {
     let beds = if chart.contains('b') { Beds::Two } else { Beds::One };
     let program = Chart::parse(chart, beds).unwrap().program().unwrap();
     let stitches = Machine::default().knit(&program).unwrap().stitches;
     let yarns = vec![KnitYarn::new(radius as f32)];
-    let (materials, sections) = (vec![Material::default()], vec![Section::Circle]);
+    let (materials, sections) = (vec![material], vec![Section::Circle]);
     Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap()
 }
 

@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec2;
-use texere_core::Backend;
 use texere_core::relaxation::{Elastic, Energy, Relaxation, RelaxationPlan, relax, relax_grown};
+use texere_core::{Backend, Material};
 use texere_cpu::ParallelBackend;
 use texere_fabric::weft::Gauge;
 use texere_fabric::{Along, FabricError, Finish, FinishError, StrainState, StrainTest, Structure};
 
-use super::{knit_of, piece, refined, slack};
+use super::{knit_of, knit_of_material, piece, refined, slack};
 
 /// A knit of the acrylic yarn of Singal et al. 2024: its chart, the length of its loops, and the
 /// shell and core that the authors fitted to it, mm; and the strains along courses and wales that
@@ -139,6 +139,24 @@ fn four_knits_strain_as_measured() {
 fn test_of(structure: &Structure, along: Along, strains: &[f64]) -> Result<StrainTest, FinishError> {
     let device = ParallelBackend::open().unwrap();
     structure.strain_test(&Finish::default(), 0.0, (along, strains), &device, |_| ControlFlow::Continue(()))
+}
+
+/// A yarn that is four times as stiff pulls four times as hard, and nothing else changes: to the
+/// bit, since four is a power of two.
+#[test]
+fn forces_grow_with_the_stiffness_of_the_yarn() {
+    let [soft, stiff] = [0.002, 0.008].map(|bending| {
+        let material = Material { bending: Some(bending), ..Material::default() };
+        let gauge = Gauge { loop_length_mm: Some(6.0), ..Gauge::new(1.6, 1.1) };
+        let jersey = knit_of_material("k", gauge, 0.16, material);
+        test_of(&Structure::Weft(jersey), Along::Courses, &[0.1]).unwrap()
+    });
+    assert_eq!(soft.gauge, stiff.gauge);
+    for (soft, stiff) in soft.states.iter().zip(&stiff.states) {
+        assert_eq!(soft.strain, stiff.strain);
+        assert_eq!(soft.force.map(|force| 4.0 * force), stiff.force);
+    }
+    assert!(stiff.states[1].force[0] > 1e-4, "{stiff:?}");
 }
 
 /// The energy that is stored is the work of the forces, up to what the few states leave out.

@@ -13,8 +13,8 @@ use super::ReadError;
 use super::bytes::Bytes;
 use super::file::{bytes_of, open, small};
 use crate::yarns_file::{
-    BYTES_MAX, CORNER_BYTES, HAS_SOURCES, HAS_UPS, MAGIC, MATERIAL_BYTES, SECTION_BYTES, VERSION, YARN_BYTES,
-    bytes_per_point, ends, origin, section,
+    BYTES_MAX, CORNER_BYTES, HAS_BENDING, HAS_SOURCES, HAS_UPS, MAGIC, MATERIAL_BYTES, SECTION_BYTES,
+    VERSION, YARN_BYTES, bytes_per_point, ends, origin, section,
 };
 
 /// The contents of a `.yarns` file.
@@ -83,7 +83,13 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
     }
     let repeat = [bytes.float("the repeat along x")?, bytes.float("the repeat along y")?];
 
-    let materials = list("materials", materials, || material(&mut bytes))?;
+    let mut materials = list("materials", materials, || material(&mut bytes))?;
+    if flags & HAS_BENDING != 0 {
+        for material in &mut materials {
+            let bending = bytes.float("a bending stiffness")?;
+            material.bending = (bending.to_bits() != 0).then_some(bending);
+        }
+    }
     let sections = list("sections", sections, || section(&mut bytes))?;
     let Table { yarns, offsets, ends } = table(&mut bytes, yarns, bytes_per_point(flags))?;
     let count = offsets[yarns.len()] as usize;
@@ -121,8 +127,9 @@ fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     let (flags_at, flags) = (bytes.at(), bytes.word("the word of flags")?);
     bytes.check_length("the length in bytes")?;
     bytes.check_sum("the checksum")?;
-    if flags & !(HAS_UPS | HAS_SOURCES) != 0 {
-        let expected = format_args!("0 to {}", HAS_UPS | HAS_SOURCES);
+    let known = HAS_UPS | HAS_SOURCES | HAS_BENDING;
+    if flags & !known != 0 {
+        let expected = format_args!("0 to {known}");
         return Err(bytes.refused(flags_at, "the word of flags", flags, expected));
     }
     Ok(flags)
@@ -154,7 +161,8 @@ fn material(bytes: &mut Bytes<'_>) -> Result<Material, ReadError> {
         1 => Some(bytes.float("a material's tex")?),
         other => return Err(bytes.refused(at, "whether a material has tex", other, "0 or 1")),
     };
-    Ok(Material { name, srgb: [red, green, blue], tex, hairiness: bytes.float("a material's hairiness")? })
+    let hairiness = bytes.float("a material's hairiness")?;
+    Ok(Material { name, srgb: [red, green, blue], tex, hairiness, bending: None })
 }
 
 fn section(bytes: &mut Bytes<'_>) -> Result<Section, ReadError> {

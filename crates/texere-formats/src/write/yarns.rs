@@ -10,8 +10,8 @@ use texere_core::{Boundary, ControlPoint, Ends, Material, Origin, Section, Yarn,
 use super::target::Target;
 use super::{Output, WriteError};
 use crate::yarns_file::{
-    BYTES_MAX, CHECKSUM_BYTES, CORNER_BYTES, ENDING, HEADER_BYTES, MAGIC, MATERIAL_BYTES, SECTION_BYTES,
-    VERSION, YARN_BYTES, bytes_per_point, ends, flags, origin, section,
+    BENDING_BYTES, BYTES_MAX, CHECKSUM_BYTES, CORNER_BYTES, ENDING, HAS_BENDING, HEADER_BYTES, MAGIC,
+    MATERIAL_BYTES, SECTION_BYTES, VERSION, YARN_BYTES, bytes_per_point, ends, flags, origin, section,
 };
 
 /// The format's name in errors.
@@ -112,6 +112,10 @@ impl<'a> File<'a> {
         let mut content = Content { target, checksum: Hasher::new() };
         self.header(&mut content)?;
         yarns.materials().iter().try_for_each(|material| content.material(material))?;
+        if flags(yarns) & HAS_BENDING != 0 {
+            let bending = yarns.materials().iter().map(|material| material.bending.unwrap_or_default());
+            bending.into_iter().try_for_each(|bending| content.float(bending))?;
+        }
         layout.sections().iter().try_for_each(|section| content.section(section))?;
         let counts = layout.offsets().windows(2).map(|bounds| bounds[1] - bounds[0]);
         for ((yarn, points), &ends) in layout.yarns().iter().zip(counts).zip(self.boundary.ends()) {
@@ -142,7 +146,9 @@ impl<'a> File<'a> {
 /// The size of the file of `yarns`, bytes.
 fn bytes_of(yarns: &Yarns) -> u64 {
     let layout = yarns.layout();
-    let materials = yarns.materials().iter().map(|material| MATERIAL_BYTES + material.name.len() as u64);
+    let bending = if flags(yarns) & HAS_BENDING == 0 { 0 } else { BENDING_BYTES };
+    let material = |each: &Material| MATERIAL_BYTES + each.name.len() as u64 + bending;
+    let materials = yarns.materials().iter().map(material);
     let sections = layout.sections().iter().map(|section| match section {
         Section::Polygon(corners) => SECTION_BYTES + CORNER_BYTES * corners.len() as u64,
         _ => SECTION_BYTES,
@@ -180,7 +186,7 @@ impl<W: Write> Content<W> {
     }
 
     fn material(&mut self, material: &Material) -> Result<(), WriteError> {
-        let Material { name, srgb: [red, green, blue], tex, hairiness } = material;
+        let Material { name, srgb: [red, green, blue], tex, hairiness, bending: _ } = material;
         self.long(name.len() as u64)?;
         self.put(name.as_bytes())?;
         self.put(&[*red, *green, *blue, u8::from(tex.is_some())])?;

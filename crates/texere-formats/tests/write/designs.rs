@@ -39,15 +39,16 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
     again(design, "a.toml", |design, path| write::toml(design, path))
 }
 
-/// A thread's sizes, twist and hairiness, its section, colour and tex. They are looked up, because
+/// A thread's sizes, stiffness, twist and hairiness, its section, colour and tex. They are looked up, because
 /// the tables of two cloths may be in different order. The spacing and the material's name are not
 /// among them.
-fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 7], &'a Section, [u8; 3], Option<f32>) {
+fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 8], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, firmness, least_area, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
     let section = &cloth.sections()[thread.section as usize];
+    let (hairiness, bending) = (material.hairiness, material.bending.unwrap_or(0.0));
     (
-        [radius_mm, flatness, stiffness, firmness, least_area, twist, material.hairiness].map(f32::to_bits),
+        [radius_mm, flatness, stiffness, firmness, least_area, twist, hairiness, bending].map(f32::to_bits),
         section,
         material.srgb,
         material.tex,

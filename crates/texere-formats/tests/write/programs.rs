@@ -101,6 +101,7 @@ pub(crate) fn check_knitout(given: &Design, source: &str) -> Vec<String> {
         ("yarns.color", any(&|_, one, _, two| one.srgb != two.srgb)),
         ("yarns.tex", any(&|_, one, _, two| one.tex != two.tex)),
         ("yarns.hairiness", any(&|_, one, _, two| one.hairiness != two.hairiness)),
+        ("yarns.bending_stiffness", any(&|_, one, _, two| one.bending != two.bending)),
         ("yarns.twist_per_m", any(&|one, _, two, _| one.twist != two.twist)),
         ("finish.settle", given.settle != read.settle),
         ("finish.length", given.finish.length != usual.length),

@@ -53,7 +53,10 @@ fn material() -> impl Strategy<Value = Material> {
     let hairiness = prop_oneof![Just(0.0_f32), Just(5.0), 0.0_f32..30.0];
     let named = (prop::sample::select(&NAMES[..]), any::<[u8; 3]>(), tex, hairiness);
     prop_oneof![
-        3 => named.prop_map(|(name, srgb, tex, hairiness)| Material { name: name.into(), srgb, tex, hairiness }),
+        3 => named.prop_map(|(name, srgb, tex, hairiness)| {
+            let bending = tex.filter(|_| hairiness == 0.0).map(|tex| 1e-4 * tex);
+            Material { name: name.into(), srgb, tex, hairiness, bending }
+        }),
         1 => Just(Material::default()),
     ]
 }

@@ -43,7 +43,8 @@ pub(crate) fn odd() -> (Yarns, Boundary) {
         ("Wolle \u{1f411}\n\"x\"", Some(30.5), 6.25),
         ("nul\0", Some(f32::from_bits(1)), 30.0),
     ] {
-        yarns.material(Material { name: name.into(), srgb: [0, 127, 255], tex, hairiness });
+        let srgb = [0, 127, 255];
+        yarns.material(Material { name: name.into(), srgb, tex, hairiness, bending: None });
     }
     for section in [
         Section::Circle,

@@ -131,7 +131,7 @@ fn every_field_is_checked() {
         (0, b"PK", "byte 0: the beginning is PK"),
         (8, &word(2), "byte 8: the version is 2, expected 1, the only version that this program reads"),
         (8, &word(0), "the version is 0"),
-        (12, &word(7), "byte 12: the word of flags is 7, expected 0 to 3"),
+        (12, &word(15), "byte 12: the word of flags is 15, expected 0 to 7"),
         (COUNTS_AT[0], &long(1 << 63), "byte 24: the number of materials is 9223372036854775808, expected"),
         (COUNTS_AT[1], &long(1 << 63), "byte 32: the number of sections is 9223372036854775808, expected"),
         (COUNTS_AT[2], &long(u64::MAX), "byte 40: the number of yarns is 18446744073709551615, expected"),

@@ -39,12 +39,9 @@ fn made() -> impl Strategy<Value = Made> {
 fn material() -> impl Strategy<Value = Material> {
     use prop::num::f32::{NORMAL, POSITIVE, SUBNORMAL};
     let tex = prop::option::of(POSITIVE | NORMAL | SUBNORMAL);
-    (any::<String>(), any::<[u8; 3]>(), tex, 0f32..=30.0).prop_map(|(name, srgb, tex, hairiness)| Material {
-        name,
-        srgb,
-        tex,
-        hairiness,
-    })
+    let bending = prop::option::of(1e-9f32..=1e6);
+    (any::<String>(), any::<[u8; 3]>(), tex, 0f32..=30.0, bending)
+        .prop_map(|(name, srgb, tex, hairiness, bending)| Material { name, srgb, tex, hairiness, bending })
 }
 
 fn section() -> impl Strategy<Value = Section> {

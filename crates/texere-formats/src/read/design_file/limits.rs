@@ -1,6 +1,6 @@
 //! The limits of values in a design file. Its writer keeps them as well.
 
-use texere_core::HAIRINESS_LIMIT;
+use texere_core::{BENDING_LIMITS, HAIRINESS_LIMIT};
 
 /// The largest design file that is read, bytes. A file that names each of a million threads is
 /// about as large.
@@ -11,6 +11,9 @@ pub(crate) const LENGTH_MM: [f64; 2] = [1e-3, 1e3];
 
 /// The finest and the coarsest yarn, tex: a single filament, and a rope.
 pub(crate) const TEX: [f64; 2] = [1e-3, 1e7];
+
+/// The least and the greatest bending stiffness, N mm².
+pub(crate) const BENDING: [f64; 2] = [1e-9, BENDING_LIMITS[1] as f64];
 
 /// The hardest twist in either direction, turns per metre.
 pub(crate) const TWIST_PER_M: f64 = 1e5;

@@ -138,6 +138,7 @@ tables! {
         plies: Option<Spanned<i64>>,
         flatness: Option<Spanned<f64>>,
         stiffness: Option<Spanned<f64>>,
+        bending_stiffness: Option<Spanned<f64>>,
         firmness: Option<Spanned<f64>>,
         twist_per_m: Option<Spanned<f64>>,
         hairiness: Option<Spanned<f64>>,

@@ -8,7 +8,7 @@ use texere_fabric::{Fibre, PACKING, PACKING_LIMITS, Thread};
 use toml::Spanned;
 
 use super::any::Any;
-use super::limits::{HAIRINESS, LENGTH_MM, TEX, TWIST_PER_M, hairiness_of};
+use super::limits::{BENDING, HAIRINESS, LENGTH_MM, TEX, TWIST_PER_M, hairiness_of};
 use super::schema::{ThreadSet, YarnSpec};
 use super::source::Source;
 use crate::read::ReadError;
@@ -211,11 +211,15 @@ fn yarn(
             fibre.least_area(density, packing)
         }
     };
+    // Without a stiffness of its own a material bends as cotton does.
+    let of_fibre = || Some(fibre.bending_stiffness(tex.filter(|_| fibre != Fibre::Cotton)?));
+    let bending = number_of("bending_stiffness", &spec.bending_stiffness, BENDING)?.or_else(of_fibre);
     let material = Material {
         name: name.into(),
         srgb,
         tex: tex.map(|tex| tex as f32),
         hairiness: hairiness.map_or_else(|| hairiness_of(twist), |hairiness| hairiness as f32),
+        bending: bending.map(|bending| bending as f32),
     };
     let thread = Thread {
         spacing_mm: 0.0,

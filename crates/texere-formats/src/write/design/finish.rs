@@ -38,12 +38,20 @@ impl KnitFinish {
         if by == RestBy::Energy {
             keys.push(("rest", Setting::Word("energy")));
         }
-        keys.extend(press_mm.map(|mm| ("press", Setting::Number(mm))));
+        // Rest by energy knows no plates and no free lengths, and a reader refuses them with it.
+        let is_free = matches!(length, Some(Length::Free { .. })) && by == RestBy::Energy;
+        let is_pressed = press_mm.is_some() && by == RestBy::Energy;
+        if is_free {
+            keys.retain(|(key, _)| !["length", "tension"].contains(key));
+        }
+        keys.extend(press_mm.filter(|_| !is_pressed).map(|mm| ("press", Setting::Number(mm))));
         let unsaid = [
             (taut.warp != usual.taut.warp, "finish.warp_tension, which only woven cloth has"),
             (taut.weft != usual.taut.weft, "finish.weft_tension, which only woven cloth has"),
             (calender != usual.calender, "finish.calender, which only woven cloth has"),
             (design.stretch.is_some(), "finish.stretch, which only woven cloth has"),
+            (is_free, "finish.length, which rest by energy does not know"),
+            (is_pressed, "finish.press, which rest by energy does not know"),
             (passes != usual.passes, "the most passes of settling"),
             (record != usual.record, "whether the course of settling is kept"),
         ];

@@ -173,6 +173,7 @@ fn beyond_yarns(knit: &Knitted, carriers: &[String], texts: &[Option<String>], r
         (any(&|yarn, _, material| own(yarn).srgb != material.srgb), "yarns.color"),
         (any(&|yarn, _, material| own(yarn).tex != material.tex), "yarns.tex"),
         (any(&|yarn, _, material| own(yarn).hairiness != material.hairiness), "yarns.hairiness"),
+        (any(&|yarn, _, material| own(yarn).bending != material.bending), "yarns.bending_stiffness"),
         (any(&|yarn, _, _| yarn.twist != 0.0), "yarns.twist_per_m"),
         (any(&|yarn, _, _| knit.sections()[yarn.section as usize] != Section::Circle), "yarns.section"),
     ]);

@@ -242,6 +242,11 @@ fn table(name: &str, thread: &Thread, material: &Material, section: &Section) ->
         let value = within(FORMAT, || field("hairiness"), material.hairiness.into(), limits::HAIRINESS)?;
         keys.push(format!("hairiness = {:?}", nearest(value, |read| read as f32 == material.hairiness).0));
     }
+    if let Some(bending) = material.bending {
+        let value = nearest(bending.into(), |read| read as f32 == bending).0;
+        within(FORMAT, || field("bending_stiffness"), value, limits::BENDING)?;
+        keys.push(format!("bending_stiffness = {value:?}"));
+    }
     Ok(keys.join("\n") + "\n")
 }
 

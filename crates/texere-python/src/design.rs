@@ -5,12 +5,15 @@ use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use texere::rest::{Finish, Length};
+use texere::read::Refusal;
+use texere::rest::{Finish, FinishError, Length, RestBy, stand_in};
 use texere::woven::{BySet, Set, Stretch};
 
+use crate::arrays::given;
 use crate::cloth::Cloth;
 use crate::device;
 use crate::progress::Shown;
+use crate::strain::{self, StrainTest};
 use crate::watch;
 
 /// A design: its structure, its yarns, and how its cloth is finished. :func:`texere.read`,
@@ -42,6 +45,9 @@ impl Design {
         Self { design: Arc::new(design) }
     }
 }
+
+/// The strains of a test that names none: those of ``texere test``.
+const STRAINS: [f64; 8] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4];
 
 /// The word for a structure.
 fn kind(design: &texere::Design) -> &'static str {
@@ -118,15 +124,17 @@ impl Design {
     /// 0 to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how strongly the cloth is pressed flat;
     /// ``stretch``, ``("warp", 1.1)`` to make the cloth 1.1 times as long along its warp, 0.5 to 2.
     /// For knits: ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5
-    /// to 2 times the length of yarn that is placed. ``passes``, 1 to 1000000: the most passes of a
-    /// knit.
+    /// to 2 times the length of yarn that is placed; ``rest``, ``"clear"`` to let yarns move until
+    /// none pierces another, in ``passes`` at most, 1 to 1000000, or ``"energy"`` to let them move
+    /// until bending and contact have the least energy, which gives the knit its gauge. A knit that
+    /// is pressed, or whose lengths are free, can't rest by its energy.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True
     ///
     /// Raises ValueError for a value out of its range, and for an argument that this kind of
     /// structure does not have.
-    #[pyo3(signature = (*, settle=None, warp_tension=None, weft_tension=None, calender=None, stretch=None, press_mm=None, loop_length=None, passes=None))]
+    #[pyo3(signature = (*, settle=None, warp_tension=None, weft_tension=None, calender=None, stretch=None, press_mm=None, loop_length=None, passes=None, rest=None))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn finished(
         &self,
@@ -138,11 +146,12 @@ impl Design {
         press_mm: Option<f32>,
         loop_length: Option<f32>,
         passes: Option<u32>,
+        rest: Option<String>,
     ) -> PyResult<Self> {
         let mut design = (*self.design).clone();
         let is_woven = design.structure.woven().is_some();
-        if is_woven && (press_mm.is_some() || loop_length.is_some()) {
-            return Err(PyValueError::new_err("press_mm and loop_length are those of a knit"));
+        if is_woven && (press_mm.is_some() || loop_length.is_some() || rest.is_some()) {
+            return Err(PyValueError::new_err("press_mm, loop_length and rest are those of a knit"));
         }
         let taut = warp_tension.or(weft_tension).or(calender);
         if !is_woven && (stretch.is_some() || taut.is_some()) {
@@ -165,8 +174,18 @@ impl Design {
                 None => finish.length,
             },
             passes: within("passes", passes, [1, 1_000_000], finish.passes)?,
+            by: match rest.as_deref() {
+                None => finish.by,
+                Some("clear") => RestBy::Contact,
+                Some("energy") => RestBy::Energy,
+                Some(_) => return Err(PyValueError::new_err("rest is neither 'clear' nor 'energy'")),
+            },
             ..finish
         };
+        let is_free = matches!(design.finish.length, Some(Length::Free { .. }));
+        if design.finish.by == RestBy::Energy && (design.finish.press_mm.is_some() || is_free) {
+            return Err(PyValueError::new_err("rest by energy knows no press and no free lengths"));
+        }
         if let Some((along, by)) = stretch {
             let along = match along.as_str() {
                 "warp" => Set::Warp,
@@ -202,10 +221,63 @@ impl Design {
         let rest = watch::work(
             py,
             |py, share| shown.show(py, share),
-            |run| (*design).clone().rest(&*device).progress(|share| run.tell(share)).run(),
+            |run| -> Result<_, Refusal> {
+                let cpu = stand_in(design.finish.by, &*device).map_err(FinishError::from)?;
+                let device = cpu.as_deref().unwrap_or(&*device);
+                let rest = (*design).clone().rest(device).progress(|share| run.tell(share)).run();
+                rest.map(|cloth| (cloth, device.info().name.clone()))
+            },
         );
         shown.close(py)?;
-        Ok(Cloth::new(rest?, device.info().name.clone()))
+        let (cloth, device) = rest?;
+        Ok(Cloth::new(cloth, device))
+    }
+
+    /// Lets a knit come to rest by its energy, then holds it at each of ``strains`` and measures how
+    /// it pulls. ``along`` is ``courses`` (it gets wider, its height is free), ``wales`` (longer)
+    /// or ``both``. ``strains`` rise, -0.5 to 5, and are shares of its size at rest. Forces grow in
+    /// proportion to the bending stiffness of the yarns.
+    ///
+    /// ``device`` and ``progress`` are those of :meth:`rest`. The CPU does the work if ``device``
+    /// can't.
+    ///
+    /// >>> test = texere.read("designs/rib.toml").test("courses", [0.1, 0.2, 0.3])
+    /// >>> bool((test.force[1:, 0] > test.force[:-1, 0]).all())
+    /// True
+    ///
+    /// Raises ValueError for another ``along``, and :class:`texere.Error` for a design that is no
+    /// knit that repeats, for strains that don't rise, and if yarns pass through one another.
+    #[pyo3(signature = (along="courses", strains=None, device="auto", progress=None))]
+    fn test(
+        &self,
+        py: Python<'_>,
+        along: &str,
+        strains: Option<&Bound<'_, PyAny>>,
+        device: &str,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<StrainTest> {
+        let along = strain::along(along)?;
+        let strains = match strains {
+            Some(strains) => given("strains", strains, &[None])?.values()?,
+            None => STRAINS.to_vec(),
+        };
+        let mut shown = match progress {
+            Some(progress) => Shown::asked(&progress, "test")?,
+            None => Shown::Waiting("test"),
+        };
+        let design = self.design.clone();
+        let device = watch::quietly(py, |_| device::open(device))?;
+        let test = watch::work(
+            py,
+            |py, share| shown.show(py, share),
+            |run| -> Result<_, Refusal> {
+                let cpu = stand_in(RestBy::Energy, &*device).map_err(FinishError::from)?;
+                design
+                    .strain_test(along, &strains, cpu.as_deref().unwrap_or(&*device), |share| run.tell(share))
+            },
+        );
+        shown.close(py)?;
+        test.map(StrainTest::new)
     }
 
     /// The cloth with its yarns where the structure places them, whatever :attr:`settle` says.

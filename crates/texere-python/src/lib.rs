@@ -32,6 +32,7 @@ mod peers;
 mod pick;
 mod picture;
 mod progress;
+mod strain;
 mod watch;
 mod whole;
 mod woven;
@@ -66,6 +67,8 @@ mod _texere {
     use crate::mesh::Mesh;
     #[pymodule_export]
     use crate::pick::Hit;
+    #[pymodule_export]
+    use crate::strain::StrainTest;
     #[pymodule_export]
     use crate::woven::{weave, woven};
     #[pymodule_export]

@@ -13,7 +13,7 @@ use eframe::egui;
 use texere::mesh::Undersampled;
 use texere::picture::{Camera, Quality, RenderError, Renderer, Scene};
 use texere::read::Refusal;
-use texere::rest::{FinishError, RestBy, RestReport};
+use texere::rest::{FinishError, RestReport, stand_in};
 use texere::write::Output;
 use texere::{Backend, Design, Settings, Structure, Yarns};
 
@@ -261,9 +261,7 @@ impl Workshop {
             Some(device) => device,
             None => settler.insert(texere::open(&view.device).map_err(FinishError::from)?),
         };
-        // Rest by energy is worked out on the CPU if the device can't.
-        let relaxes = design.finish.by == RestBy::Energy && !device.info().can.relax;
-        let cpu = relaxes.then(|| texere::open("cpu")).transpose().map_err(FinishError::from)?;
+        let cpu = stand_in(design.finish.by, &**device).map_err(FinishError::from)?;
         let device: &dyn Backend = cpu.as_deref().unwrap_or(&**device);
         // The closure owns the references, because a receiver can be sent to other threads but not
         // shared with them.

@@ -3,6 +3,7 @@
 use texere_core::backend::Schedule;
 use texere_core::{Backend, BackendError, DeviceInfo, DeviceKind};
 use texere_cpu::{ParallelBackend, SerialBackend};
+use texere_fabric::RestBy;
 
 /// A family of devices behind one programming interface.
 struct Family {
@@ -121,6 +122,28 @@ pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     }
 }
 
+/// The device that stands in for `device` where it can't let yarns come to rest in this way: all
+/// cores of the CPU. None if `device` can.
+///
+/// ```
+/// use texere::rest::{RestBy, stand_in};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let design = texere::read("designs/jersey.toml")?;
+/// let device = texere::open("auto")?;
+/// let cpu = stand_in(design.finish.by, &*device)?;
+/// let cloth = design.rest(cpu.as_deref().unwrap_or(&*device)).run()?;
+/// assert!(cloth.warnings().is_empty());
+/// assert!(stand_in(RestBy::Energy, &*texere::open("cpu-serial")?)?.is_none());
+/// # Ok(())
+/// # }
+/// ```
+///
+/// **Errors**: [`BackendError::NoInstructionSet`] as for [`open`].
+pub fn stand_in(rest: RestBy, device: &dyn Backend) -> Result<Option<Box<dyn Backend>>, BackendError> {
+    let lacks = rest == RestBy::Energy && !device.info().can.relax;
+    lacks.then(open_cpu).transpose()
+}
+
 fn open_cpu() -> Result<Box<dyn Backend>, BackendError> {
     Ok(Box::new(ParallelBackend::open()?))
 }
@@ -229,6 +252,16 @@ fn no_device(wanted: &str) -> BackendError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_cpu_stands_in_where_a_device_does_not_relax() {
+        for found in devices().found {
+            let device = open(&found.name).unwrap();
+            let cpu = stand_in(RestBy::Energy, &*device).unwrap();
+            assert_eq!(cpu.map(|cpu| cpu.info().name.clone()), (!found.can.relax).then(|| "cpu".to_owned()));
+            assert!(stand_in(RestBy::Contact, &*device).unwrap().is_none());
+        }
+    }
 
     fn device(name: &str) -> DeviceInfo {
         DeviceInfo { device: name.into(), ..SerialBackend::new().info().clone() }

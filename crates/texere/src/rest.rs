@@ -8,6 +8,7 @@
 //! | say how cloth is finished: how long its yarns are, whether it is pressed | [`Finish`], [`Length`], [`Press`] |
 //! | follow a design to rest, and know how it ended | [`Resting`], [`RestReport`], [`Finished`], [`Verdict`] |
 //! | let a knit find its own gauge, by the least energy of bending and contact | [`RestBy::Energy`], [`RelaxedKnit`], [`Energy`] |
+//! | rest by energy whatever device there is | [`stand_in`] |
 //! | strain a knit, and measure how it pulls | [`Design::strain_test`](crate::Design::strain_test), [`StrainTest`], [`Along`] |
 //! | settle yarns of any origin | [`Piece`], [`settle`], [`Settled`] |
 //! | settle one repeat, and copy it | [`Repeat`] |
@@ -28,6 +29,7 @@
 //! # }
 //! ```
 
+pub use crate::device::stand_in;
 pub use texere_core::relaxation::Energy;
 pub use texere_core::settling::Length;
 pub use texere_core::{CrossingsError, RelaxationError, SettlingError, Subject};

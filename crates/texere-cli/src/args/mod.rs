@@ -214,6 +214,9 @@ pub(crate) struct TestArgs {
     /// Write all states to a .csv file, too
     #[arg(short, long, value_name = "FILE", value_parser = file_of(&["csv"]))]
     pub(crate) output: Option<PathBuf>,
+    /// Draw the forces over the strains to a .svg file, too
+    #[arg(long, value_name = "FILE", value_parser = file_of(&["svg"]))]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -5,7 +5,7 @@ mod plot;
 use std::ops::Deref;
 
 use texere::check::SettlingReport;
-use texere::rest::{Finished, RestBy, RestReport};
+use texere::rest::{Finished, RestBy, RestReport, stand_in};
 use texere::write::Output;
 use texere::{Backend, BackendError, Cloth, Design};
 
@@ -35,9 +35,7 @@ pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     let output = args.settling_plot.as_ref().map(|path| Output::to(path).sparing(design.files()));
     output.iter().try_for_each(Output::check)?;
     let given = drivers::quietly(open)?;
-    // Rest by energy is worked out on the CPU if the device can't.
-    let relaxes = design.finish.by == RestBy::Energy && !given.info().can.relax;
-    let cpu = relaxes.then(|| texere::open("cpu")).transpose()?;
+    let cpu = stand_in(design.finish.by, &*given)?;
     let device: &dyn Backend = cpu.as_deref().unwrap_or(&*given);
     (design.settle, design.finish.record) = (true, output.is_some());
     let cloth = progress::during("settling", |bar| {

@@ -13,8 +13,10 @@ fn a_knit_is_strained_both_ways() {
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("jersey.csv");
     let jersey = design("jersey.toml");
+    let plot = folder.path().join("jersey.svg");
     let asked = ["test", &jersey, "--to", "0.2", "--states", "4"];
-    let output = texere(&[&asked[..], &["--json", "-o", table.to_str().unwrap()]].concat());
+    let files = ["-o", table.to_str().unwrap(), "--plot", plot.to_str().unwrap()];
+    let output = texere(&[&asked[..], &["--json"], &files].concat());
     let report: Value = serde_json::from_str(&stdout(&output)).unwrap();
     let tests = report["tests"].as_array().unwrap();
     let ways: Vec<_> = tests.iter().map(|test| test["along"].as_str().unwrap()).collect();
@@ -39,6 +41,8 @@ fn a_knit_is_strained_both_ways() {
     assert!(rows.iter().all(|row| row.len() == 8));
     let written: f64 = rows[7][2].parse().unwrap();
     assert!((written - number(&tests[1]["states"][1]["strain_wales"])).abs() < 1e-12);
+    let plot = std::fs::read_to_string(plot).unwrap();
+    assert_eq!((plot.matches("<polyline").count(), plot.matches("<circle").count()), (2, 10), "{plot}");
     let text = stdout(&texere(&asked));
     assert!(text.starts_with("Plain jersey\nalong the courses, from 12."), "{text}");
     assert!(text.contains("Poisson's ratio at rest") && !text.contains("balance"), "{text}");

@@ -96,6 +96,14 @@ impl StrainTest {
         self.states.iter().map(move |state| [state.strain[axis], state.force[axis]])
     }
 
+    /// The energy of a state above that at rest, for each mm² of cloth at rest, N mm/mm².
+    #[must_use]
+    pub fn stored(&self, state: &StrainState) -> f64 {
+        let rest = self.states.iter().find(|state| state.strain == [0.0; 2]);
+        let rest = rest.map_or(0.0, |rest| rest.energy.sum());
+        (state.energy.sum() - rest) / (self.repeat_mm[0] * self.repeat_mm[1])
+    }
+
     /// The strain along the way of the test at which the force per width first reaches `force`,
     /// N/mm, between the states on a straight line. Along both ways, that along the courses counts.
     /// None if no state reaches it.

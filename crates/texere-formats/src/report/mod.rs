@@ -9,6 +9,7 @@ mod measures;
 mod settling;
 mod setts;
 mod strain;
+mod strain_plot;
 mod under;
 
 pub use check::CheckReport;

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use serde::Serialize;
-use texere_fabric::{Along, StrainState, StrainTest};
+use texere_fabric::{Along, StrainTest};
 
+use super::strain_plot::{Curve, plot};
 use crate::Design;
 
 /// The strains at which the tangent modulus is reported.
@@ -96,6 +97,25 @@ impl StrainReport {
         text
     }
 
+    /// The forces over the strains, as SVG. A test along both ways has two curves.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let courses = |state: &State| [state.strain_courses, state.force_courses_n_per_mm];
+        let wales = |state: &State| [state.strain_wales, state.force_wales_n_per_mm];
+        let curves = self.tests.iter().flat_map(|test| {
+            let curve = |name, of: &dyn Fn(&State) -> [f64; 2]| Curve {
+                name,
+                points: test.states.iter().map(of).collect(),
+            };
+            match test.along {
+                "courses" => vec![curve("along the courses", &courses)],
+                "wales" => vec![curve("along the wales", &wales)],
+                _ => vec![curve("along both, courses", &courses), curve("along both, wales", &wales)],
+            }
+        });
+        plot(&curves.collect::<Vec<_>>())
+    }
+
     /// All states as a table of comma-separated values, with the JSON's keys as the first line.
     #[must_use]
     pub fn csv(&self) -> String {
@@ -120,17 +140,13 @@ impl StrainReport {
 
 impl Tested {
     fn new(test: &StrainTest) -> Self {
-        let energy = |state: &StrainState| state.energy.sum();
-        let is_at_rest = |state: &&StrainState| state.strain == [0.0; 2];
-        let rest = test.states.iter().find(is_at_rest).map_or(0.0, energy);
-        let area = test.repeat_mm[0] * test.repeat_mm[1];
         let states = test.states.iter().map(|state| State {
             strain_courses: state.strain[0],
             strain_wales: state.strain[1],
             force_courses_n_per_mm: state.force[0],
             force_wales_n_per_mm: state.force[1],
             thickness_mm: state.thickness_mm,
-            energy_n_per_mm: (energy(state) - rest) / area,
+            energy_n_per_mm: test.stored(state),
             balanced: state.balanced,
         });
         let moduli = MODULI.map(|strain| Modulus { strain, n_per_mm: test.modulus_at(strain) });

@@ -463,7 +463,8 @@ namespace Texere
 
         /// <summary>
         ///  Makes the cloth of a design: places its yarns, and lets them come to rest on `device` if the
-        ///  design asks for it. Rest by energy is worked out on the CPU if the device can't. `run` may be null.
+        ///  design asks for it. Rest by energy is worked out on the CPU if the device can't. `run` may be
+        ///  null.
         ///
         ///  The call succeeds even if the yarns do not come to rest; `texere_cloth_report` says whether they
         ///  did. Threads of woven cloth that can't settle at all stay where the structure places them. The

@@ -233,10 +233,10 @@ impl Design {
         Ok(Cloth::new(cloth, device))
     }
 
-    /// Lets a knit come to rest by its energy, then holds it at each of ``strains`` and measures how
-    /// it pulls. ``along`` is ``courses`` (it gets wider, its height is free), ``wales`` (longer)
-    /// or ``both``. ``strains`` rise, -0.5 to 5, and are shares of its size at rest. Forces grow in
-    /// proportion to the bending stiffness of the yarns.
+    /// Lets a knit come to rest by its energy, then holds it at each of ``strains`` and measures
+    /// how it pulls. ``along`` is ``courses`` (it gets wider, its height is free), ``wales``
+    /// (longer) or ``both``. ``strains`` rise, -0.5 to 5, and are shares of its size at rest.
+    /// Forces grow in proportion to the bending stiffness of the yarns.
     ///
     /// ``device`` and ``progress`` are those of :meth:`rest`. The CPU does the work if ``device``
     /// can't.

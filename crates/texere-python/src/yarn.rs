@@ -20,10 +20,10 @@ use texere::yarn::{
 /// ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to 100, 1 for cotton of
 /// ordinary twist; if it is not given, it follows from ``twist_per_m``, where this is given) count
 /// in woven cloth alone, as does ``packing``, the largest share of its section that the fibre of a
-/// squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm², counts in knits that rest
-/// by their energy; if it is not given, it follows from ``fibre`` and ``tex``. ``fibre`` is ``"cotton"``,
-/// ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``, ``"viscose"`` or ``"wool"``.
-/// ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
+/// squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm², counts in knits that
+/// rest by their energy; if it is not given, it follows from ``fibre`` and ``tex``. ``fibre`` is
+/// ``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``, ``"viscose"`` or
+/// ``"wool"``. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
 ///
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>

@@ -12,7 +12,8 @@ const BOTTOM: f64 = 440.0;
 /// The most steps between the numbers on an axis.
 const STEPS: f64 = 8.0;
 
-/// The share of a step by which a value may lie outside of the axis. Forces at rest are not quite 0.
+/// The share of a step by which a value may lie outside of the axis. Forces at rest are not quite
+/// 0.
 const NOISE: f64 = 0.01;
 
 /// The colours of curves, one after the other (Okabe and Ito 2008).

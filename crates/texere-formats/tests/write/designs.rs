@@ -39,9 +39,9 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
     again(design, "a.toml", |design, path| write::toml(design, path))
 }
 
-/// A thread's sizes, stiffness, twist and hairiness, its section, colour and tex. They are looked up, because
-/// the tables of two cloths may be in different order. The spacing and the material's name are not
-/// among them.
+/// A thread's sizes, stiffness, twist and hairiness, its section, colour and tex. They are looked
+/// up, because the tables of two cloths may be in different order. The spacing and the material's
+/// name are not among them.
 fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 8], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, firmness, least_area, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];

@@ -138,6 +138,19 @@ impl Fibre {
         1e-3 * shape * modulus * fibre_tex / (4.0 * PI * self.density()) * tex
     }
 
+    /// The bending stiffness that this fibre gives the material of a yarn of `tex`, N mm². None for
+    /// cotton and without tex: such a material bends as cotton does.
+    ///
+    /// ```
+    /// use texere_fabric::Fibre;
+    /// assert_eq!(Fibre::Wool.bending_of(Some(20.0)), Some(Fibre::Wool.bending_stiffness(20.0)));
+    /// assert_eq!((Fibre::Wool.bending_of(None), Fibre::Cotton.bending_of(Some(20.0))), (None, None));
+    /// ```
+    #[must_use]
+    pub fn bending_of(self, tex: Option<f64>) -> Option<f64> {
+        tex.filter(|_| self != Self::Cotton).map(|tex| self.bending_stiffness(tex))
+    }
+
     /// The least area that the section of a yarn keeps, as a share of the section of the yarn as it
     /// is spun. `yarn_density` (g/cm³) is the density of the yarn as it is spun, the air in it
     /// included. `packing` is the largest share of the section that fibre fills. The least area is

@@ -90,8 +90,8 @@ fn yarns_of_every_structure_have_their_hairiness() {
     }
 }
 
-/// A bending stiffness that a design states counts, else that of its fibre and tex. Of cotton, and
-/// of yarn without tex, the thickness says it.
+/// A bending stiffness that a design states counts, else that of its fibre and tex. Cotton, and
+/// yarn without tex, have none of their own.
 #[test]
 fn yarns_bend_as_their_fibres_do() {
     for (said, bending) in [

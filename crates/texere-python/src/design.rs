@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use texere::Backend;
 use texere::read::Refusal;
 use texere::rest::{Finish, FinishError, Length, RestBy, stand_in};
 use texere::woven::{BySet, Set, Stretch};
@@ -14,7 +15,7 @@ use crate::cloth::Cloth;
 use crate::device;
 use crate::progress::Shown;
 use crate::strain::{self, StrainTest};
-use crate::watch;
+use crate::watch::{self, Run};
 
 /// A design: its structure, its yarns, and how its cloth is finished. :func:`texere.read`,
 /// :func:`texere.woven`, :func:`texere.weft_knit` and :func:`texere.warp_knit` make one.
@@ -212,24 +213,12 @@ impl Design {
     /// Yarns that don't come to rest are no error: ``report`` of the cloth says so.
     #[pyo3(signature = (device="auto", progress=None))]
     fn rest(&self, py: Python<'_>, device: &str, progress: Option<Bound<'_, PyAny>>) -> PyResult<Cloth> {
-        let mut shown = match progress {
-            Some(progress) => Shown::asked(&progress, "rest")?,
-            None => Shown::Waiting("rest"),
-        };
         let design = self.design.clone();
-        let device = watch::quietly(py, |_| device::open(device))?;
-        let rest = watch::work(
-            py,
-            |py, share| shown.show(py, share),
-            |run| -> Result<_, Refusal> {
-                let cpu = stand_in(design.finish.by, &*device).map_err(FinishError::from)?;
-                let device = cpu.as_deref().unwrap_or(&*device);
+        let (cloth, device) =
+            on_device(py, (design.finish.by, device), ("rest", progress), |device, run| {
                 let rest = (*design).clone().rest(device).progress(|share| run.tell(share)).run();
                 rest.map(|cloth| (cloth, device.info().name.clone()))
-            },
-        );
-        shown.close(py)?;
-        let (cloth, device) = rest?;
+            })?;
         Ok(Cloth::new(cloth, device))
     }
 
@@ -261,23 +250,11 @@ impl Design {
             Some(strains) => given("strains", strains, &[None])?.values()?,
             None => STRAINS.to_vec(),
         };
-        let mut shown = match progress {
-            Some(progress) => Shown::asked(&progress, "test")?,
-            None => Shown::Waiting("test"),
-        };
         let design = self.design.clone();
-        let device = watch::quietly(py, |_| device::open(device))?;
-        let test = watch::work(
-            py,
-            |py, share| shown.show(py, share),
-            |run| -> Result<_, Refusal> {
-                let cpu = stand_in(RestBy::Energy, &*device).map_err(FinishError::from)?;
-                design
-                    .strain_test(along, &strains, cpu.as_deref().unwrap_or(&*device), |share| run.tell(share))
-            },
-        );
-        shown.close(py)?;
-        test.map(StrainTest::new)
+        let test = on_device(py, (RestBy::Energy, device), ("test", progress), |device, run| {
+            design.strain_test(along, &strains, device, |share| run.tell(share))
+        })?;
+        Ok(StrainTest::new(test))
     }
 
     /// The cloth with its yarns where the structure places them, whatever :attr:`settle` says.
@@ -317,6 +294,31 @@ impl Design {
         let [width, height] = self.design.structure.size_mm();
         format!("<texere.Design '{}', {}, {width:.1} x {height:.1} mm>", self.design.name, self.kind())
     }
+}
+
+/// Does `work` on the device of a name, or on the CPU if the device can't let yarns come to rest as
+/// `by` says. Its progress is shown after the text `what`.
+fn on_device<T: Send>(
+    py: Python<'_>,
+    (by, name): (RestBy, &str),
+    (what, progress): (&'static str, Option<Bound<'_, PyAny>>),
+    work: impl FnOnce(&dyn Backend, &Run) -> Result<T, Refusal> + Send,
+) -> PyResult<T> {
+    let mut shown = match progress {
+        Some(progress) => Shown::asked(&progress, what)?,
+        None => Shown::Waiting(what),
+    };
+    let device = watch::quietly(py, |_| device::open(name))?;
+    let done = watch::work(
+        py,
+        |py, share| shown.show(py, share),
+        |run| {
+            let cpu = stand_in(by, &*device).map_err(FinishError::from)?;
+            work(cpu.as_deref().unwrap_or(&*device), run)
+        },
+    );
+    shown.close(py)?;
+    done
 }
 
 /// The value that is given, or else the usual one.

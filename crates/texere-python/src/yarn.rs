@@ -90,8 +90,7 @@ impl YarnSpec {
         let srgb = color.map_or(Ok(Material::default().srgb), srgb)?;
         let section = section.map_or(Ok(Section::Circle), self::section)?;
         section.validate().map_err(|error| PyValueError::new_err(format!("section: {error}")))?;
-        let tex_bent = tex.filter(|_| fibre != Fibre::Cotton);
-        let of_fibre = tex_bent.map(|tex| fibre.bending_stiffness(f64::from(tex)) as f32);
+        let of_fibre = fibre.bending_of(tex.map(f64::from)).map(|bending| bending as f32);
         let bending = bending_stiffness.or(of_fibre);
         let material = Material { name: name.into(), srgb, tex, hairiness, bending };
         let twist = twist_from_turns_per_m(twist_per_m.unwrap_or(0.0)) as f32;

@@ -74,18 +74,17 @@ pub struct RelaxationPull {
 }
 
 impl RelaxationPull {
-    /// The pull of interval number `interval` for yarns with the share `growth` of their thickness.
+    /// The pull of interval number `number` for yarns with the share `growth` of their thickness.
     /// `samples` are those of `state`, and `near` are the neighbours of the interval.
     #[must_use]
     pub fn new(
         plan: &RelaxationPlan,
         state: &RelaxationState,
         growth: f64,
-        interval: usize,
+        number: usize,
         samples: &RelaxationSamples,
         near: &[RelaxationNear],
     ) -> Self {
-        let number = interval;
         let interval = &plan.intervals()[number];
         let window = plan.points_of(state, interval);
         let energy = Energy::default();

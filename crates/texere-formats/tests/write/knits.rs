@@ -7,7 +7,7 @@ use image::{Rgb, RgbImage};
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::weft::{Chart, Gauge, KnitYarn, Knitted, Machine};
-use texere_fabric::{Relief, Structure, Thread, Weave, Woven, WovenDesign};
+use texere_fabric::{Finish, Relief, RestBy, Structure, Thread, Weave, Woven, WovenDesign};
 use texere_formats::{Design, ReadError, WriteError, read_from, write};
 
 use crate::designs::again;
@@ -258,6 +258,18 @@ fn charts_with_stripes_and_odd_names() {
     design.finish.length = Some(Length::Given(3.0));
     let error = write::toml_to(&design, std::io::sink()).unwrap_err().to_string();
     assert_eq!(error, "finish.length is 3; a design file takes 0.5 to 2");
+}
+
+/// A reader refuses plates and free lengths with rest by energy.
+#[test]
+fn what_rest_by_energy_does_not_know_is_left_out() {
+    let mut design = from_text("a.toml", CHART).unwrap();
+    design.finish.by = RestBy::Energy;
+    (design.finish.press_mm, design.finish.length) = (Some(0.4), Some(Length::Free { tension: 0.01 }));
+    let (read, left_out, _) = as_toml(&design);
+    let finish = ["finish.length, which", "finish.press, which"];
+    assert!(finish.iter().all(|key| left_out.iter().any(|line| line.starts_with(key))), "{left_out:?}");
+    assert_eq!(read.finish, Finish { by: RestBy::Energy, ..Finish::default() });
 }
 
 #[test]

@@ -211,9 +211,8 @@ fn yarn(
             fibre.least_area(density, packing)
         }
     };
-    // Without a stiffness of its own a material bends as cotton does.
-    let of_fibre = || Some(fibre.bending_stiffness(tex.filter(|_| fibre != Fibre::Cotton)?));
-    let bending = number_of("bending_stiffness", &spec.bending_stiffness, BENDING)?.or_else(of_fibre);
+    let bending = number_of("bending_stiffness", &spec.bending_stiffness, BENDING)?;
+    let bending = bending.or(fibre.bending_of(tex));
     let material = Material {
         name: name.into(),
         srgb,

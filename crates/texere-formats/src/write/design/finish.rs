@@ -26,7 +26,11 @@ impl KnitFinish {
     pub(super) fn new(design: &Design) -> Self {
         let Finish { by, length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
+        // Rest by energy knows no plates and no free lengths, and a reader refuses them with it.
+        let by_energy = by == RestBy::Energy;
+        let is_free = matches!(length, Some(Length::Free { .. }));
         let mut keys = match length {
+            Some(Length::Free { .. }) if by_energy => Vec::new(),
             None => Vec::new(),
             Some(Length::Held) => vec![("length", Setting::Word("held"))],
             Some(Length::Given(times)) => vec![("length", Setting::Number(times))],
@@ -35,23 +39,17 @@ impl KnitFinish {
                 [("length", Setting::Word("free"))].into_iter().chain(tension).collect()
             }
         };
-        if by == RestBy::Energy {
+        if by_energy {
             keys.push(("rest", Setting::Word("energy")));
         }
-        // Rest by energy knows no plates and no free lengths, and a reader refuses them with it.
-        let is_free = matches!(length, Some(Length::Free { .. })) && by == RestBy::Energy;
-        let is_pressed = press_mm.is_some() && by == RestBy::Energy;
-        if is_free {
-            keys.retain(|(key, _)| !["length", "tension"].contains(key));
-        }
-        keys.extend(press_mm.filter(|_| !is_pressed).map(|mm| ("press", Setting::Number(mm))));
+        keys.extend(press_mm.filter(|_| !by_energy).map(|mm| ("press", Setting::Number(mm))));
         let unsaid = [
             (taut.warp != usual.taut.warp, "finish.warp_tension, which only woven cloth has"),
             (taut.weft != usual.taut.weft, "finish.weft_tension, which only woven cloth has"),
             (calender != usual.calender, "finish.calender, which only woven cloth has"),
             (design.stretch.is_some(), "finish.stretch, which only woven cloth has"),
-            (is_free, "finish.length, which rest by energy does not know"),
-            (is_pressed, "finish.press, which rest by energy does not know"),
+            (by_energy && is_free, "finish.length, which rest by energy does not know"),
+            (by_energy && press_mm.is_some(), "finish.press, which rest by energy does not know"),
             (passes != usual.passes, "the most passes of settling"),
             (record != usual.record, "whether the course of settling is kept"),
         ];

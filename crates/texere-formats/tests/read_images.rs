@@ -332,6 +332,9 @@ fn a_tiff_that_can_not_be_shown_is_refused_by_name() {
     let mut pages = grey(8, false);
     pages.pages.extend(grey(8, true).pages);
     refused("a.tif", &pages.bytes(), "", &["several pages"]);
+    // A few bytes that ask for 36 GB.
+    let many = grey(8, false).with(256, &[100_000]).with(277, &[60_000]);
+    refused("a.tif", &many.bytes(), "", &["60000 samples a pixel", "1073741824"]);
     // A small copy of the page, as cameras and scanners write one, does not count as a page.
     let mut small = grey(8, false);
     small.pages.extend(grey(8, true).with(254, &[1]).pages);

@@ -138,7 +138,7 @@ const STRETCHING: u32 = 100;
 const STRETCHED: f64 = 0.5;
 
 /// Begins to settle the cloth as its design says, if `depth` says so, and returns `outcome`. An
-/// error has to name the design's file.
+/// error has to name the design's file, or the draft that it names.
 fn finished(design: &Design, outcome: Outcome, depth: Depth) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if depth == Depth::Yarns || outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
@@ -160,7 +160,8 @@ fn finished(design: &Design, outcome: Outcome, depth: Depth) -> Outcome {
     };
     if let Some(refusal) = refusal {
         let said = chain(refusal);
-        assert!(said.contains("design."), "an error without its file: {said}");
+        let names_file = ["design.", "draft."].iter().any(|file| said.contains(file));
+        assert!(names_file, "an error without its file: {said}");
     }
     outcome
 }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use texere_core::counted;
 use texere_fabric::THREADS_MAX;
 
+use super::refused::undecodable;
 use crate::read::ReadError;
 
 /// The most pixels of an image: 16,384 hooks by as many picks, beyond any Jacquard loom.
@@ -20,6 +22,16 @@ pub(super) const ASIDE_MAX: u64 = 1 << 25;
 /// The largest image file that is read, bytes. An image of [`PIXELS_MAX`] pixels of four bytes fits
 /// uncompressed.
 pub(super) const FILE_MAX: u64 = MEMORY_MAX + ASIDE_MAX;
+
+/// Refuses pixels of `samples` samples each that take more than [`MEMORY_MAX`] bytes. An image may
+/// say that it has thousands of samples a pixel.
+pub(super) fn check_memory(path: &Path, samples: usize, bytes: u64) -> Result<(), ReadError> {
+    if bytes <= MEMORY_MAX {
+        return Ok(());
+    }
+    let samples = counted(samples as u64, "sample");
+    Err(undecodable(path, &format!("its {samples} a pixel take {bytes} bytes, more than {MEMORY_MAX}")))
+}
 
 /// Refuses an image with more than [`PIXELS_MAX`] pixels, or with a side of more pixels than a warp
 /// or weft may have threads.

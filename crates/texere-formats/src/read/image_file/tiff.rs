@@ -12,7 +12,7 @@ use texere_core::backend::filled;
 
 use super::bytes::Bytes;
 use super::image::{Image, Orientation};
-use super::limits::{ASIDE_MAX, check_size};
+use super::limits::{ASIDE_MAX, check_memory, check_size};
 use super::refused::{no_color, undecodable};
 use crate::read::ReadError;
 
@@ -157,6 +157,7 @@ pub(super) fn decode(path: &Path, file: impl Bytes, header: &Header) -> Result<I
     samples.check().map_err(|why| undecodable(path, &why))?;
 
     let layout = decoder.image_buffer_layout().map_err(failed)?;
+    check_memory(path, samples.count, layout.complete_len as u64)?;
     let mut raw = filled("an image", layout.complete_len, 0)?;
     decoder = decoder.with_limits(limits(raw.len()));
     decoder.read_image_bytes(&mut raw).map_err(failed)?;

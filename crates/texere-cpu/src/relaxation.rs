@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use texere_core::BackendError;
-use texere_core::backend::{WorkWatch, room_for};
+use texere_core::backend::{WorkWatch, filled};
 use texere_core::relaxation::{
     RelaxationLists, RelaxationPlan, RelaxationPull, RelaxationSamples, RelaxationSeen, RelaxationState,
 };
@@ -27,23 +27,22 @@ impl RelaxationMemory {
     /// Allocates the memory for `plan`.
     pub(crate) fn new(plan: Arc<RelaxationPlan>) -> Result<Self, BackendError> {
         let samples = RelaxationSamples::new(&plan)?;
-        let mut pulls = Vec::new();
-        room_for(&mut pulls, plan.intervals().len(), "pulls of intervals")?;
+        let pulls = filled("pulls of intervals", plan.intervals().len(), RelaxationPull::default())?;
         Ok(Self { plan, samples, lists: None, pulls })
     }
 
-    /// Measures a state. `pull_all` appends the pull of each interval, made by the function that it
-    /// gets, in the order of intervals.
+    /// Measures a state. `pull_all` works out the pull of each interval with the function that it
+    /// gets, which takes the interval's number.
     pub(crate) fn measure(
         &mut self,
         state: &RelaxationState,
         growth: f64,
         watch: WorkWatch<'_>,
         pull_all: impl FnOnce(
-            &(dyn Fn(usize) -> RelaxationPull + Sync),
-            &mut Vec<RelaxationPull>,
+            &(dyn Fn(usize, &mut RelaxationPull) -> Result<(), BackendError> + Sync),
+            &mut [RelaxationPull],
             WorkWatch<'_>,
-        ) -> ControlFlow<()>,
+        ) -> Result<ControlFlow<()>, BackendError>,
     ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
         let Self { plan, samples, lists, pulls } = self;
         let sampled = in_parts(plan.intervals().len(), PART, watch, |part| samples.place(plan, state, part));
@@ -57,10 +56,10 @@ impl RelaxationMemory {
                 ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
             },
         };
-        let pull =
-            |interval: usize| RelaxationPull::new(plan, state, growth, interval, samples, lists.of(interval));
-        pulls.clear();
-        let pulled = pull_all(&pull, pulls, watch);
+        let measure = |interval: usize, pull: &mut RelaxationPull| {
+            pull.measure(plan, state, growth, interval, samples, lists.of(interval))
+        };
+        let pulled = pull_all(&measure, pulls, watch)?;
         Ok(pulled.map_continue(|()| RelaxationSeen::of(plan, pulls)))
     }
 }

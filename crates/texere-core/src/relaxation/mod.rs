@@ -42,7 +42,7 @@ pub use elastic::Elastic;
 pub use near::{RelaxationLists, RelaxationNear};
 pub use plan::{RelaxationInterval, RelaxationPlan, RelaxationYarn};
 pub use problem::Relaxation;
-pub use pull::{Energy, RelaxationPull};
+pub use pull::{Energy, RelaxationPress, RelaxationPull};
 pub use relaxer::{RelaxationSeen, Relaxer};
 pub use run::{Relaxed, relax, relax_grown};
 pub use samples::RelaxationSamples;

@@ -1,4 +1,5 @@
-//! The neighbours of each interval: the intervals whose samples may touch its own.
+//! The neighbours of each interval: the intervals whose samples may touch its own. Each pair of
+//! neighbours is listed once.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -91,7 +92,7 @@ impl RelaxationLists {
         let (mut starts, mut near) = (room("neighbours", intervals.len() + 1)?, Vec::new());
         starts.push(0);
         let mut unasked = CANDIDATES;
-        for (interval, ball) in intervals.iter().zip(balls) {
+        for ((number, interval), ball) in (0..).zip(intervals).zip(balls) {
             if unasked >= CANDIDATES {
                 if watch().is_break() {
                     return Ok(ControlFlow::Break(()));
@@ -105,6 +106,10 @@ impl RelaxationLists {
             let elastic = &plan.elastic()[interval.yarn as usize];
             let window = following(elastic, growth);
             for copied in grid.beside(ball.middle) {
+                // Each pair is listed once.
+                if (copied.interval, copied.image) < (number, [0; 2]) {
+                    continue;
+                }
                 let other = &intervals[copied.interval as usize];
                 let shells = elastic.shell + plan.elastic()[other.yarn as usize].shell;
                 if ball.touches(&copied.ball, growth * shells + margin) {

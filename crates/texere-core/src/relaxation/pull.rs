@@ -1,18 +1,19 @@
 //! The energy of one interval, and how it grows with the interval's control points.
 //!
 //! ```text
-//! for each interval:                                   RelaxationPull::new
+//! for each interval:                                   RelaxationPull::measure
 //!     for each of its samples:                         bend
 //!         add the energy of the curvature there
 //!     add the energy of the length that it has too much or too little
 //!     for each neighbour, and each sample of both:     press
 //!         if the distance is less than the shells reach, and the samples do not follow one
 //!         another along one yarn:
-//!             add half of the energy of the contact, and the whole force on this interval
+//!             add the energy of the contact, and the forces on both intervals
 //! ```
 //!
-//! Every pair of intervals is met twice, once from either side. So a pull only reads, and writes
-//! nothing but itself: the sums of a schedule do not depend on the number of threads.
+//! Every pair of intervals is met once, from one side. A pull keeps the forces on the neighbours
+//! beside its own, and writes nothing but itself. All forces are added up afterwards in the order
+//! of intervals, so the sums do not depend on the number of threads.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -20,7 +21,8 @@ use super::elastic::Shells;
 use super::near::following;
 use super::node::{blend, folded};
 use super::{RelaxationInterval, RelaxationNear, RelaxationPlan, RelaxationSamples, RelaxationState};
-use crate::Ends;
+use crate::backend::room_for;
+use crate::{BackendError, Ends};
 
 /// The least square of a velocity, mm², so that no power of it underflows where a spline stands
 /// still.
@@ -56,53 +58,69 @@ impl Energy {
     }
 }
 
-/// The energy of an interval, and how it grows with the interval's four control points.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The energy of an interval and of its contacts with neighbours, and how it grows with the control
+/// points of both.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct RelaxationPull {
-    /// By how much the energy of all yarns grows with each of the four control points, as far as
-    /// this interval's own energy and the forces on it go, N.
+    /// By how much this energy grows with each of the interval's four control points, N.
     pub slopes: [DVec3; 4],
     /// The growth of the energy with the repeat's length along x and y, N.
     pub repeat: DVec2,
-    /// The interval's energy, with half of the energy of its contacts.
+    /// The energy.
     pub energy: Energy,
     /// The sum of the contact forces on the interval's samples, N.
     pub pressed: f64,
-    /// The stiffness of the interval's contacts, N/mm: the sum over its samples, each as if the
+    /// The stiffness of these contacts, N/mm: the sum over the interval's samples, each as if the
     /// other yarns stood still.
+    pub stiffness: DMat3,
+    /// What the contacts do to the neighbours.
+    pub presses: Vec<RelaxationPress>,
+    /// The contact forces on the samples of one neighbour.
+    forces: Vec<DVec3>,
+}
+
+/// What an interval's contacts with a neighbour do to the neighbour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelaxationPress {
+    /// The number of the neighbour.
+    pub interval: u32,
+    /// By how much the energy grows with each of the neighbour's four control points, N.
+    pub slopes: [DVec3; 4],
+    /// The sum of the contact forces on the neighbour's samples, N.
+    pub pressed: f64,
+    /// The stiffness of the contacts, N/mm, as if the interval itself stood still.
     pub stiffness: DMat3,
 }
 
 impl RelaxationPull {
-    /// The pull of interval number `number` for yarns with the share `growth` of their thickness.
-    /// `samples` are those of `state`, and `near` are the neighbours of the interval.
-    #[must_use]
-    pub fn new(
+    /// Works out the pull of interval number `number` for yarns with the share `growth` of their
+    /// thickness, in place of what was there. `samples` are those of `state`, and `near` are the
+    /// neighbours of the interval.
+    ///
+    /// **Errors**: [`BackendError`] for short memory.
+    pub fn measure(
+        &mut self,
         plan: &RelaxationPlan,
         state: &RelaxationState,
         growth: f64,
         number: usize,
         samples: &RelaxationSamples,
         near: &[RelaxationNear],
-    ) -> Self {
+    ) -> Result<(), BackendError> {
         let interval = &plan.intervals()[number];
         let window = plan.points_of(state, interval);
-        let energy = Energy::default();
-        let mut pull = Self {
-            slopes: [DVec3::ZERO; 4],
-            repeat: DVec2::ZERO,
-            energy,
-            pressed: 0.0,
-            stiffness: DMat3::ZERO,
-        };
-        pull.bend(plan, interval, &window);
-        pull.lengthen(plan, interval, &window);
-        pull.flatten(plan, interval, samples.of(interval));
+        self.slopes = [DVec3::ZERO; 4];
+        (self.repeat, self.energy) = (DVec2::ZERO, Energy::default());
+        (self.pressed, self.stiffness) = (0.0, DMat3::ZERO);
+        self.presses.clear();
+        self.bend(plan, interval, &window);
+        self.lengthen(plan, interval, &window);
+        self.flatten(plan, interval, samples.of(interval));
         for near in near {
-            pull.press(plan, state, growth, number, samples, near);
+            self.press(plan, state, growth, number, samples, near)?;
         }
-        pull.fold(plan, interval);
-        pull
+        self.slopes = self.fold(plan, interval, self.slopes);
+        Ok(())
     }
 
     /// Adds the energy of bending: `B/2 ∫ |c|² / |x'|⁵ du`, where c is the cross product of both
@@ -153,7 +171,7 @@ impl RelaxationPull {
         number: usize,
         samples: &RelaxationSamples,
         near: &RelaxationNear,
-    ) {
+    ) -> Result<(), BackendError> {
         let [interval, other] = [number, near.interval as usize].map(|number| &plan.intervals()[number]);
         let yarns = [interval, other].map(|interval| &plan.elastic()[interval.yarn as usize]);
         let shells = Shells::new(yarns, growth);
@@ -163,7 +181,7 @@ impl RelaxationPull {
         let [own, mut ball] = [number, near.interval as usize].map(|number| samples.balls()[number]);
         ball.middle += way;
         if !own.touches(&ball, reach) {
-            return;
+            return Ok(());
         }
         let window = following(yarns[0], growth);
         let within = (reach + ball.radius).powi(2);
@@ -171,8 +189,13 @@ impl RelaxationPull {
         // A closed yarn also follows itself the other way round.
         let turn = if yarn.ends == Ends::Closed { yarn.length } else { f64::INFINITY };
         let parts = [interval, other].map(|interval| interval.length / f64::from(interval.samples));
-        let lengths = parts[0] * parts[1];
-        let mut all = DVec3::ZERO;
+        // An interval that touches itself meets each pair of its samples twice.
+        let is_own = near.interval as usize == number && near.image == [0; 2];
+        let lengths = if is_own { 0.5 } else { 1.0 } * parts[0] * parts[1];
+        let (mut all, mut stiffness, mut touched) = (DVec3::ZERO, DMat3::ZERO, false);
+        self.forces.clear();
+        room_for(&mut self.forces, other.samples as usize, "forces of contacts")?;
+        self.forces.resize(other.samples as usize, DVec3::ZERO);
         for ((own, at), node) in samples.of(interval).iter().enumerate().zip(plan.nodes(interval)) {
             if at.distance_squared(ball.middle) >= within {
                 continue;
@@ -192,16 +215,34 @@ impl RelaxationPull {
                 }
                 let distance = square.sqrt();
                 let [energy, slope, change] = shells.energy(distance);
-                self.energy.contact += 0.5 * energy * lengths;
+                self.energy.contact += energy * lengths;
                 let way = apart.normalize_or_zero();
-                force += way * (slope * lengths);
-                self.stiffness += outer(way, change * lengths);
+                let pushed = way * (slope * lengths);
+                force += pushed;
+                self.forces[number] -= pushed;
+                stiffness += outer(way, change * lengths);
+                touched = true;
             }
             self.pressed += force.length();
             self.add(&node.position, force);
             all += force;
         }
-        self.repeat -= 0.5 * all.truncate() * image;
+        if !touched {
+            return Ok(());
+        }
+        self.repeat -= all.truncate() * image;
+        self.stiffness += stiffness;
+        let (mut slopes, mut pressed) = ([DVec3::ZERO; 4], 0.0);
+        for (force, node) in self.forces.iter().zip(plan.nodes(other)) {
+            pressed += force.length();
+            for (slope, weight) in slopes.iter_mut().zip(node.position) {
+                *slope += *force * weight;
+            }
+        }
+        slopes = self.fold(plan, other, slopes);
+        room_for(&mut self.presses, 1, "contacts of intervals")?;
+        self.presses.push(RelaxationPress { interval: near.interval, slopes, pressed, stiffness });
+        Ok(())
     }
 
     fn add(&mut self, weights: &[f64; 4], slope: DVec3) {
@@ -210,14 +251,21 @@ impl RelaxationPull {
         }
     }
 
-    /// Moves what pulls at virtual ends to the points that they are computed from, and adds to the
-    /// growth with the repeat what pulls at points in the yarn's other rounds.
-    fn fold(&mut self, plan: &RelaxationPlan, interval: &RelaxationInterval) {
-        self.slopes = folded(self.slopes, plan.is_at_end(interval));
+    /// The slopes at an interval's control points, with what pulls at virtual ends moved to the
+    /// points that they are computed from. Adds to the growth with the repeat what pulls at points
+    /// in the yarn's other rounds.
+    fn fold(
+        &mut self,
+        plan: &RelaxationPlan,
+        interval: &RelaxationInterval,
+        slopes: [DVec3; 4],
+    ) -> [DVec3; 4] {
+        let slopes = folded(slopes, plan.is_at_end(interval));
         let shift = plan.shift(interval.yarn);
-        for ((_, round), slope) in plan.window_of(interval).into_iter().zip(self.slopes) {
+        for ((_, round), slope) in plan.window_of(interval).into_iter().zip(slopes) {
             self.repeat += slope.truncate() * shift * f64::from(round);
         }
+        slopes
     }
 }
 

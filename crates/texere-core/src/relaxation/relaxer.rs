@@ -2,12 +2,13 @@
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::iter;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{Energy, RelaxationPlan, RelaxationPull, RelaxationState};
+use super::{Energy, RelaxationPlan, RelaxationPress, RelaxationPull, RelaxationState};
 use crate::BackendError;
 use crate::work_watch::WorkWatch;
 
@@ -24,7 +25,8 @@ pub struct RelaxationSeen {
     pub repeat: DVec2,
     /// The largest sum of contact forces on an interval, N.
     pub pressed: f64,
-    /// The contact stiffness of each interval, N/mm: see [`RelaxationPull::stiffness`].
+    /// The contact stiffness of each interval, N/mm: the sum over its samples, each as if the other
+    /// yarns stood still.
     pub stiffness: Vec<DMat3>,
 }
 
@@ -58,17 +60,28 @@ impl RelaxationSeen {
             slopes: vec![DVec3::ZERO; points],
             repeat: DVec2::ZERO,
             pressed: 0.0,
-            stiffness: Vec::with_capacity(pulls.len()),
+            stiffness: vec![DMat3::ZERO; pulls.len()],
         };
+        let mut pressed = vec![0.0; pulls.len()];
         for (interval, pull) in pulls.iter().enumerate() {
-            for (point, slope) in plan.window(interval).into_iter().zip(pull.slopes) {
-                seen.slopes[point as usize] += slope;
+            let own = RelaxationPress {
+                interval: interval as u32,
+                slopes: pull.slopes,
+                pressed: pull.pressed,
+                stiffness: pull.stiffness,
+            };
+            for press in iter::once(&own).chain(&pull.presses) {
+                let interval = press.interval as usize;
+                for (point, slope) in plan.window(interval).into_iter().zip(press.slopes) {
+                    seen.slopes[point as usize] += slope;
+                }
+                pressed[interval] += press.pressed;
+                seen.stiffness[interval] += press.stiffness;
             }
             seen.energy = seen.energy.and(pull.energy);
             seen.repeat += pull.repeat;
-            seen.pressed = seen.pressed.max(pull.pressed);
-            seen.stiffness.push(pull.stiffness);
         }
+        seen.pressed = pressed.into_iter().fold(0.0, f64::max);
         seen
     }
 }

@@ -7,7 +7,6 @@ use texere_core::BackendError;
 use texere_core::backend::WorkWatch;
 use texere_core::relaxation::{RelaxationPlan, RelaxationSeen, RelaxationState, Relaxer};
 
-use crate::asked::in_parts;
 use crate::relaxation::RelaxationMemory;
 
 /// The number of intervals between two questions to the caller.
@@ -28,9 +27,16 @@ impl Relaxer for SerialRelaxer {
         growth: f64,
         watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
-        let intervals = self.0.plan.intervals().len();
-        self.0.measure(state, growth, watch, |pull, pulls, watch| {
-            in_parts(intervals, PART, watch, |part| pulls.extend(part.map(pull)))
+        self.0.measure(state, growth, watch, |measure, pulls, watch| {
+            for (part, pulls) in pulls.chunks_mut(PART).enumerate() {
+                if watch().is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
+                for (number, pull) in (part * PART..).zip(pulls) {
+                    measure(number, pull)?;
+                }
+            }
+            Ok(ControlFlow::Continue(()))
         })
     }
 }

@@ -155,6 +155,25 @@ fn energy_and_forces_are_those_of_the_oracle() {
     }
 }
 
+/// A yarn whose second interval curls so far that its ends touch: both lie in one interval.
+#[test]
+fn an_interval_may_touch_itself() {
+    let mut yarns = Yarns::builder();
+    let at = [[14.0, -16.0, -0.6], [10.0, 0.0, 0.0], [10.5, 0.0, 0.8], [6.0, -10.0, 1.4]];
+    yarns.yarn(Yarn::default(), &at.map(|[x, y, z]| ControlPoint::new(x, y, z, 0.1)));
+    let yarns = yarns.build().unwrap();
+    let boundary = Boundary::new(yarns.layout(), [24.0, 60.0], vec![Ends::Repeats([1, 0])]).unwrap();
+    let elastic = [Elastic { bending: 0.01, core: 0.2, shell: 0.6, compression: 0.1, extension: 1.0 }];
+    // A point that is held keeps all points where they are.
+    let problem = Relaxation::new(&yarns, &elastic).boundary(boundary).pinned(vec![0]);
+    let plan = Arc::new(RelaxationPlan::new(&problem).unwrap());
+    let seen = measured(&SerialBackend::new(), &plan, plan.start(), 1.0);
+    let found = energy(&plan, plan.start(), [1.0, 0.0], Broken::Nothing);
+    let contacts = seen.energy.contact / seen.energy.sum();
+    assert!(contacts > 0.01, "{:?}", seen.energy);
+    assert!((seen.energy.sum() / found - 1.0).abs() < 1e-9, "{:?} for {found}", seen.energy);
+}
+
 /// The oracle can tell: with a term that is wrong it no longer agrees.
 #[test]
 fn broken_terms_are_found() {

@@ -227,11 +227,19 @@ impl RelaxationPull {
             self.add(&node.position, force);
             all += force;
         }
-        if !touched {
-            return Ok(());
-        }
         self.repeat -= all.truncate() * image;
         self.stiffness += stiffness;
+        if touched { self.keep(plan, near, stiffness) } else { Ok(()) }
+    }
+
+    /// Keeps what the contacts with a neighbour do to it: its forces, and their `stiffness`.
+    fn keep(
+        &mut self,
+        plan: &RelaxationPlan,
+        near: &RelaxationNear,
+        stiffness: DMat3,
+    ) -> Result<(), BackendError> {
+        let other = &plan.intervals()[near.interval as usize];
         let (mut slopes, mut pressed) = ([DVec3::ZERO; 4], 0.0);
         for (force, node) in self.forces.iter().zip(plan.nodes(other)) {
             pressed += force.length();

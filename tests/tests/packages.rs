@@ -1,5 +1,5 @@
 //! Dependencies between packages: no GPU backend depends on the CPU backend, and packages that need
-//! no GPU depend on none.
+//! no GPU depend on no GPU backend.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -41,8 +41,8 @@ fn text(value: &Value) -> &str {
     value.as_str().unwrap()
 }
 
-/// The `rust-version` of a package is the newest one among its dependencies and texere's own code.
-/// The workflow checks the package with that version.
+/// The `rust-version` of a package is the newest Rust that one of its dependencies needs, or
+/// texere's own code. The workflow checks the package with that version.
 #[test]
 fn each_package_names_the_oldest_rust_that_builds_it() {
     let metadata = metadata();
@@ -74,8 +74,8 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
             newer.insert((name, claimed));
         }
     }
-    // A dependency of texere-view needs a newer Rust than texere. If it is not found, dependencies
-    // were not followed.
+    // A dependency of texere-view needs a newer Rust than texere's own code. Without it in the
+    // list, the loop above has not followed dependencies.
     assert!(newer.contains(&("texere-view", "1.95")), "{newer:?}");
     let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows/ci.yml");
     let workflow = std::fs::read_to_string(workflow).unwrap();
@@ -92,7 +92,7 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
     }
 }
 
-/// All packages in a build of `package`, without itself.
+/// The names of all packages that a build of `package` needs.
 fn needs(package: &str, features: &str) -> BTreeSet<String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
@@ -111,7 +111,7 @@ fn assert_without(packages: &[&str], unwanted: &[&str]) {
     for package in packages {
         for features in ["--all-features", "--no-default-features"] {
             let needs = needs(package, features);
-            // Otherwise an empty list would pass.
+            // Every tree has bytemuck. A list that could not be read has not.
             assert!(needs.contains("bytemuck"), "{package} {features}: {needs:?}");
             for unwanted in unwanted.iter().filter(|unwanted| unwanted != &package) {
                 assert!(!needs.contains(*unwanted), "{package} {features} needs {unwanted}");
@@ -126,6 +126,7 @@ fn no_gpu_backend_needs_a_cpu_backend_or_the_other_gpu_backend() {
     assert_without(&["texere-wgpu"], &["texere-cpu", "texere-opencl", "opencl3"]);
 }
 
+/// Neither a GPU backend nor what GPU backends share is among the packages that these need.
 #[test]
 fn what_needs_no_gpu_has_none() {
     let shared = ["texere-gpu", "texere-kernels", "texere-shaders"];
@@ -177,6 +178,7 @@ fn the_cores_sources_name_no_gpu_interface() {
             read += 1;
         }
     }
+    // If the walk had failed, no file would have been read.
     assert!(read > 10, "{read} files");
 }
 

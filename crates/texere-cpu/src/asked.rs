@@ -2,6 +2,7 @@
 
 use std::ops::{ControlFlow, Range};
 
+use texere_core::BackendError;
 use texere_core::backend::WorkWatch;
 
 /// The number of tasks of each thread between two questions. Threads wait for one another before a
@@ -28,6 +29,26 @@ pub(crate) fn in_parts(
         work(start..count.min(start + part));
     }
     ControlFlow::Continue(())
+}
+
+/// Calls `work` with one part of `items` after the other and the number of its first item, and asks
+/// `watch` before each. All parts but the last have `size` items. `Break` as soon as `watch` breaks
+/// off.
+///
+/// **Errors**: the first of `work`.
+pub(crate) fn in_slices<T>(
+    items: &mut [T],
+    size: usize,
+    watch: WorkWatch<'_>,
+    mut work: impl FnMut(usize, &mut [T]) -> Result<(), BackendError>,
+) -> Result<ControlFlow<()>, BackendError> {
+    for (part, items) in items.chunks_mut(size).enumerate() {
+        if watch().is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        work(part * size, items)?;
+    }
+    Ok(ControlFlow::Continue(()))
 }
 
 /// Answers [`in_parts`] for a caller that does not stop the work.

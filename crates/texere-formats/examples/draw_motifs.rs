@@ -4,17 +4,17 @@
 //!
 //! `cargo run -p texere-formats --example draw_motifs` writes them to that folder. They are
 //! computed from sums, products and square roots alone, so that every machine draws the same
-//! pictures.
+//! pictures. Shapes, widths and radii are by eye. The test below compares the files with what is
+//! drawn here.
 
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// A point of the ornament, drawn on a repeat of 240 by 320 with the origin in the middle of a
-/// fruit, y upwards.
+/// A point in the units of [`REPEAT`]. The origin is the middle of the pomegranate. y points up.
 type Point = [f64; 2];
 
-/// The size of a repeat as drawn.
+/// Width and height of a repeat, in the units of [`Point`]. [`Paper::disc`] scales them to pixels.
 const REPEAT: [f64; 2] = [240.0, 320.0];
 
 /// Steps along a stroke. They are finer than pixels at every size drawn here.
@@ -67,8 +67,8 @@ impl Paper {
         Self { size, pixels: vec![Tone::Ground; size[0] * size[1]] }
     }
 
-    /// Paints a disc of `radius` round `centre`, once in the middle of the repeat and once half a
-    /// repeat off each way.
+    /// Paints a disc of `radius` round `centre` twice, in a half-drop repeat: with the origin at
+    /// the middle of the paper, and shifted by half the paper in both directions.
     fn disc(&mut self, centre: Point, radius: f64, tone: Tone) {
         let scale = [self.size[0] as f64 / REPEAT[0], self.size[1] as f64 / REPEAT[1]];
         let radius = radius * scale[0];
@@ -88,8 +88,8 @@ impl Paper {
         }
     }
 
-    /// Paints a stroke along a Bézier curve, `width` to either side where it is widest, and its
-    /// mirror image.
+    /// Paints a stroke along a Bézier curve, and the stroke's mirror image about x = 0. `profile`
+    /// scales `width`, half the width of the stroke.
     fn stroke(&mut self, spine: [Point; 4], width: f64, profile: Profile, tone: Tone) {
         for step in 0..=STEPS {
             let t = step as f64 / STEPS as f64;
@@ -133,8 +133,8 @@ fn bezier(spine: [Point; 4], t: f64) -> Point {
 /// The part of a Bézier curve between two of its parameters.
 fn part(spine: [Point; 4], from: f64, to: f64) -> [Point; 4] {
     let mix = |a: Point, b: Point, t: f64| [0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * t);
-    // The blossom of the curve (its polar form): each step of de Casteljau's construction uses
-    // another parameter.
+    // The blossom of the curve (its polar form): each step of de Casteljau's construction uses a
+    // parameter of its own, u, then v, then w.
     let blossom = |u: f64, v: f64, w: f64| {
         let [a, b, c] = [0, 1, 2].map(|k| mix(spine[k], spine[k + 1], u));
         mix(mix(a, b, v), mix(b, c, v), w)
@@ -148,8 +148,8 @@ fn ornament(size: [usize; 2]) -> Paper {
     use Tone::{Figure, Ground, Shade};
     let mut paper = Paper::new(size);
 
-    // The lattice: two vines that part above a rosette, and meet the vines of the next fields
-    // beside it.
+    // The lattice: two vines start at the bottom of a field and curve outwards. At each side a vine
+    // meets that of the next field, in a rosette.
     let vine = [[0.0, -160.0], [12.0, -108.0], [108.0, -52.0], [120.0, 0.0]];
     for t in [0.24, 0.42, 0.60] {
         let [x, y] = bezier(vine, t);
@@ -206,13 +206,14 @@ fn lozenges([width, height]: [usize; 2]) -> Paper {
     paper
 }
 
-/// A figure for a Jacquard bar: a ring of thick places round open ones, on a ground of thin places.
+/// A figure for a Jacquard bar: open places in the middle, a ring of thick places round them, and a
+/// ground of thin places.
 fn rings([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
         let [across, along] = [(place % width, width), (place / width, height)]
             .map(|(at, side)| (at as f32 + 0.5) / side as f32 * 2.0 - 1.0);
-        *tone = match across.hypot(along) {
+        *tone = match (across * across + along * along).sqrt() {
             away if away < 0.45 => Tone::Shade,
             away if away < 0.85 => Tone::Figure,
             _ => Tone::Ground,
@@ -232,10 +233,12 @@ fn bound_ornament(size: [usize; 2]) -> Paper {
     paper
 }
 
-/// Every crossing of a double cloth: a 2/2 twill over another 2/2 twill, whose ends and picks
-/// alternate, the face's first. An end of the back is lifted over a pick of the face if the ends
-/// beside it float over that pick and it lies over the picks beside it. Stitches therefore hardly
-/// show.
+/// A stitched double cloth with a pixel for each crossing. Both layers are 2/2 twills. Ends and
+/// picks alternate between face and back, beginning with the face.
+///
+/// A stitch lifts an end of the back over a pick of the face. Stitches hardly show, because they
+/// lie where the neighbouring ends of the face float over that pick, and where the end of the back
+/// floats over the picks of the back before and after.
 fn double_twill([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
@@ -254,14 +257,14 @@ fn double_twill([width, height]: [usize; 2]) -> Paper {
 }
 
 /// Every crossing of a double cloth of two plain layers, which change places in a disc. Ends and
-/// picks belong alternately to the one layer and to the other.
+/// picks belong to the two layers in turn.
 fn figured_double([width, height]: [usize; 2]) -> Paper {
     let mut paper = Paper::new([width, height]);
     for (place, tone) in paper.pixels.iter_mut().enumerate() {
         let [end, pick] = [place % width, height - 1 - place / width];
         let [across, along] =
             [(end, width), (pick, height)].map(|(at, side)| (at as f32 + 0.5) / side as f32 * 2.0 - 1.0);
-        let face = usize::from(across.hypot(along) < 0.6);
+        let face = usize::from((across * across + along * along).sqrt() < 0.6);
         let up = if end % 2 == pick % 2 { (end / 2 + pick / 2).is_multiple_of(2) } else { end % 2 == face };
         if up {
             *tone = Tone::Figure;
@@ -335,7 +338,7 @@ impl Drawing {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../designs").join(self.file)
     }
 
-    /// Numbers of colours, row by row from the top.
+    /// The place of each pixel's colour in the palette, row by row from the top.
     fn pixels(&self) -> Vec<u8> {
         let tones = (self.draw)(self.size).pixels;
         tones.iter().map(|&tone| tone as u8 % self.palette.len() as u8).collect()
@@ -359,7 +362,8 @@ impl Drawing {
     }
 }
 
-/// A row of numbers of `bits` each, the first in the highest bits.
+/// Packs a row of numbers of `bits` bits each into bytes. The first number of a byte is in its
+/// highest bits.
 fn pack(row: &[u8], bits: usize) -> Vec<u8> {
     let byte = |numbers: &[u8]| {
         numbers.iter().enumerate().fold(0, |byte, (place, number)| byte | number << (8 - bits * (place + 1)))

@@ -1,5 +1,5 @@
-//! Output against the oracle and the serial reference, as a whole and in chunks. The conformance
-//! suite tests more.
+//! Output of the wgpu backend against the oracle and `cpu-serial`, as a whole and in chunks, for
+//! some cases of the conformance suite.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -16,7 +16,7 @@ fn assert_matches(backend: &dyn Backend, name: &str, yarns: &texere_core::Yarns,
     assert!(report.is_clean(), "{name}: {report}");
 }
 
-/// Runs the suite's cases whose names begin with one of `prefixes`, in both frames.
+/// Runs the suite's cases named `PREFIX::FRAME` for each of `prefixes`. Each has two, one a frame.
 fn run_cases(prefixes: &[&str]) {
     let chosen = cases::all()
         .into_iter()
@@ -70,6 +70,7 @@ fn one_yarn_of_a_hundred_thousand_rings() {
 
 #[test]
 fn limits_of_a_few_kilobytes() {
+    // Small enough for several chunks, and for chunks that end within a yarn.
     let limits = Limits { binding_bytes: 20_000, blocks: 4, ..Limits::NONE };
     let small = WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL).with_limits(limits);
     assert_eq!(small.info().limits.binding_bytes, 20_000);

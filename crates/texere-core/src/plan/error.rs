@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use crate::counted;
 
-/// Settings that can't be planned for, or a plan that does not fit.
+/// Settings that can't be planned for, a plan that exceeds limits, or an edit that its plan has no
+/// room for.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -30,7 +31,7 @@ pub enum PlanError {
     #[error(
         "section {section} is a polygon of {corners}, but tubes have {sides}; set sides to {}", .corners, corners = counted(*.corners, "corner"), sides = counted(*.sides, "side"))]
     PolygonSides {
-        /// Number of the section.
+        /// Number of the section, counted from 0.
         section: usize,
         /// Number of the section's corners.
         corners: usize,
@@ -95,8 +96,8 @@ pub enum PlanError {
         /// The bytes allowed.
         limit: u64,
     },
-    /// Not even one block fits [`Limits::blocks`](crate::Limits::blocks), or the numbers of
-    /// vertices and indices that an indexed draw can count.
+    /// A single block exceeds [`Limits::blocks`](crate::Limits::blocks), or has more vertices or
+    /// indices than an indexed draw can count.
     #[error("one block of {rings} takes {needed} {what}, but the limit is {limit}", rings = counted(*.rings, "ring"))]
     BlockOverCount {
         /// Number of rings of the block.

@@ -62,34 +62,38 @@ impl Energy {
 /// points of both.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RelaxationPull {
-    /// By how much this energy grows with each of the interval's four control points, N.
-    pub slopes: [DVec3; 4],
     /// The growth of the energy with the repeat's length along x and y, N.
     pub repeat: DVec2,
     /// The energy.
     pub energy: Energy,
-    /// The sum of the contact forces on the interval's samples, N.
-    pub pressed: f64,
-    /// The stiffness of these contacts, N/mm: the sum over the interval's samples, each as if the
-    /// other yarns stood still.
-    pub stiffness: DMat3,
+    /// What all of this energy does to the interval itself.
+    pub own: RelaxationPress,
     /// What the contacts do to the neighbours.
     pub presses: Vec<RelaxationPress>,
     /// The contact forces on the samples of one neighbour.
     forces: Vec<DVec3>,
 }
 
-/// What an interval's contacts with a neighbour do to the neighbour.
+/// What an energy does to an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelaxationPress {
-    /// The number of the neighbour.
+    /// The number of the interval.
     pub interval: u32,
-    /// By how much the energy grows with each of the neighbour's four control points, N.
+    /// By how much the energy grows with each of the interval's four control points, N.
     pub slopes: [DVec3; 4],
-    /// The sum of the contact forces on the neighbour's samples, N.
+    /// The sum of the contact forces on the interval's samples, N.
     pub pressed: f64,
-    /// The stiffness of the contacts, N/mm, as if the interval itself stood still.
+    /// The stiffness of the contacts, N/mm: the sum over the interval's samples, each as if the
+    /// other yarns stood still.
     pub stiffness: DMat3,
+}
+
+impl Default for RelaxationPress {
+    fn default() -> Self {
+        // The default of a matrix is not 0.
+        let stiffness = DMat3::ZERO;
+        Self { interval: 0, slopes: [DVec3::ZERO; 4], pressed: 0.0, stiffness }
+    }
 }
 
 impl RelaxationPull {
@@ -109,9 +113,8 @@ impl RelaxationPull {
     ) -> Result<(), BackendError> {
         let interval = &plan.intervals()[number];
         let window = plan.points_of(state, interval);
-        self.slopes = [DVec3::ZERO; 4];
+        self.own = RelaxationPress { interval: number as u32, ..RelaxationPress::default() };
         (self.repeat, self.energy) = (DVec2::ZERO, Energy::default());
-        (self.pressed, self.stiffness) = (0.0, DMat3::ZERO);
         self.presses.clear();
         self.bend(plan, interval, &window);
         self.lengthen(plan, interval, &window);
@@ -119,7 +122,7 @@ impl RelaxationPull {
         for near in near {
             self.press(plan, state, growth, number, samples, near)?;
         }
-        self.slopes = self.fold(plan, interval, self.slopes);
+        self.own.slopes = self.fold(plan, interval, self.own.slopes);
         Ok(())
     }
 
@@ -223,12 +226,12 @@ impl RelaxationPull {
                 stiffness += outer(way, change * lengths);
                 touched = true;
             }
-            self.pressed += force.length();
+            self.own.pressed += force.length();
             self.add(&node.position, force);
             all += force;
         }
         self.repeat -= all.truncate() * image;
-        self.stiffness += stiffness;
+        self.own.stiffness += stiffness;
         if touched { self.keep(plan, near, stiffness) } else { Ok(()) }
     }
 
@@ -254,7 +257,7 @@ impl RelaxationPull {
     }
 
     fn add(&mut self, weights: &[f64; 4], slope: DVec3) {
-        for (sum, weight) in self.slopes.iter_mut().zip(weights) {
+        for (sum, weight) in self.own.slopes.iter_mut().zip(weights) {
             *sum += slope * *weight;
         }
     }

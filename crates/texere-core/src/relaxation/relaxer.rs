@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{Energy, RelaxationPlan, RelaxationPress, RelaxationPull, RelaxationState};
+use super::{Energy, RelaxationPlan, RelaxationPull, RelaxationState};
 use crate::BackendError;
 use crate::work_watch::WorkWatch;
 
@@ -63,14 +63,8 @@ impl RelaxationSeen {
             stiffness: vec![DMat3::ZERO; pulls.len()],
         };
         let mut pressed = vec![0.0; pulls.len()];
-        for (interval, pull) in pulls.iter().enumerate() {
-            let own = RelaxationPress {
-                interval: interval as u32,
-                slopes: pull.slopes,
-                pressed: pull.pressed,
-                stiffness: pull.stiffness,
-            };
-            for press in iter::once(&own).chain(&pull.presses) {
+        for pull in pulls {
+            for press in iter::once(&pull.own).chain(&pull.presses) {
                 let interval = press.interval as usize;
                 for (point, slope) in plan.window(interval).into_iter().zip(press.slopes) {
                     seen.slopes[point as usize] += slope;

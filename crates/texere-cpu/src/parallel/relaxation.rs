@@ -8,7 +8,7 @@ use texere_core::BackendError;
 use texere_core::backend::WorkWatch;
 use texere_core::relaxation::{RelaxationPlan, RelaxationSeen, RelaxationState, Relaxer};
 
-use crate::asked::for_all_threads;
+use crate::asked::{for_all_threads, in_slices};
 use crate::relaxation::RelaxationMemory;
 
 /// The least number of intervals of one task. Intervals of stockinette take some 20 µs each.
@@ -30,16 +30,11 @@ impl Relaxer for ParallelRelaxer {
         watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
         self.0.measure(state, growth, watch, |measure, pulls, watch| {
-            let size = for_all_threads(4 * TASK);
-            for (part, pulls) in pulls.chunks_mut(size).enumerate() {
-                if watch().is_break() {
-                    return Ok(ControlFlow::Break(()));
-                }
+            in_slices(pulls, for_all_threads(4 * TASK), watch, |first, pulls| {
                 // Sums are made of all pulls in their order, so they do not depend on the tasks.
                 let pulls = pulls.par_iter_mut().with_min_len(TASK).enumerate();
-                pulls.try_for_each(|(number, pull)| measure(part * size + number, pull))?;
-            }
-            Ok(ControlFlow::Continue(()))
+                pulls.try_for_each(|(number, pull)| measure(first + number, pull))
+            })
         })
     }
 }

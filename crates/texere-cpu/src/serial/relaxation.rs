@@ -7,6 +7,7 @@ use texere_core::BackendError;
 use texere_core::backend::WorkWatch;
 use texere_core::relaxation::{RelaxationPlan, RelaxationSeen, RelaxationState, Relaxer};
 
+use crate::asked::in_slices;
 use crate::relaxation::RelaxationMemory;
 
 /// The number of intervals between two questions to the caller.
@@ -28,15 +29,9 @@ impl Relaxer for SerialRelaxer {
         watch: WorkWatch<'_>,
     ) -> Result<ControlFlow<(), RelaxationSeen>, BackendError> {
         self.0.measure(state, growth, watch, |measure, pulls, watch| {
-            for (part, pulls) in pulls.chunks_mut(PART).enumerate() {
-                if watch().is_break() {
-                    return Ok(ControlFlow::Break(()));
-                }
-                for (number, pull) in (part * PART..).zip(pulls) {
-                    measure(number, pull)?;
-                }
-            }
-            Ok(ControlFlow::Continue(()))
+            in_slices(pulls, PART, watch, |first, pulls| {
+                (first..).zip(pulls).try_for_each(|(number, pull)| measure(number, pull))
+            })
         })
     }
 }

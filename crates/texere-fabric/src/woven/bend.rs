@@ -59,7 +59,7 @@ pub(super) struct Bend<'a> {
     pub(super) shape: Shape,
     /// The threads that they cross.
     pub(super) crossed: &'a Set,
-    /// Half the height of these threads' own section, mm.
+    /// Half the height of these threads, with the room that their twist needs, mm.
     pub(super) half_height: f32,
     /// The share of these threads in the distance between the two centrelines at a crossing.
     pub(super) share: f32,
@@ -71,18 +71,17 @@ impl Bend<'_> {
         (self.crossed.at[to] - self.crossed.at[from]).abs()
     }
 
-    /// Distance between the centrelines at crossing `number`, mm: half the sum of the heights of
-    /// both sections.
-    pub(super) fn room(&self, number: usize) -> f32 {
+    /// Distance between the centrelines at crossing `number`, mm: the sum of both half heights.
+    pub(super) fn apart(&self, number: usize) -> f32 {
         self.half_height + self.crossed.half_height[number]
     }
 
     /// Distance of the thread from the cloth's middle at crossing `number`, up or down, mm.
     pub(super) fn depth(&self, number: usize) -> f32 {
-        let room = self.room(number);
+        let apart = self.apart(number);
         match self.shape {
-            Shape::Crossing => self.share * room * crossing::swing(self.crossed.pitch[number] / room),
-            Shape::Round => self.share * room,
+            Shape::Crossing => self.share * apart * crossing::swing(self.crossed.pitch[number] / apart),
+            Shape::Round => self.share * apart,
         }
     }
 
@@ -95,7 +94,7 @@ impl Bend<'_> {
     /// If the neighbour is far away, the shoulder slides down the line to the middle between the
     /// two crossings, so that no step is longer than [`STRIDE`] times the step before.
     pub(super) fn shoulder(&self, number: usize, pitch: f32) -> (f32, f32) {
-        let (room, depth) = (self.room(number), self.depth(number));
+        let (apart, depth) = (self.apart(number), self.depth(number));
         let across = self.crossed.half_width[number] + self.half_height;
         // Close threads far from the cloth's edge may be rounded to one place.
         if pitch <= 0.0 {
@@ -104,7 +103,7 @@ impl Bend<'_> {
         let near = (SHOULDER * across).min(SHOULDER_MOST * pitch);
         let aside = near.max(pitch / STRIDE);
         let slid = (0.5 * pitch - aside) / (0.5 * pitch - near);
-        let fall = FALL.min(FALL_OF_CIRCLE * circle(near, across)) * room;
+        let fall = FALL.min(FALL_OF_CIRCLE * circle(near, across)) * apart;
         (aside, (depth - fall).max(0.5 * depth) * slid)
     }
 
@@ -156,7 +155,7 @@ impl Bend<'_> {
     fn lowest_out(&self, number: usize, aside: f32) -> f32 {
         let across = self.crossed.half_width[number] + self.half_height;
         let fall = FALL_OUT.min(FALL_OF_CIRCLE * circle(aside.min(across), across));
-        self.depth(number) - fall * self.room(number)
+        self.depth(number) - fall * self.apart(number)
     }
 }
 

@@ -178,7 +178,7 @@ fn change(bend: &Bend<'_>, from: usize, to: usize) -> [f32; 3] {
     let forward = (end - start).signum();
     let start = start + forward * bend.shoulder(from, pitch).0;
     let end = end - forward * bend.shoulder(to, pitch).0;
-    let share = bend.room(from) / (bend.room(from) + bend.room(to));
+    let share = bend.apart(from) / (bend.apart(from) + bend.apart(to));
     [start, start + share * (end - start), end]
 }
 

@@ -9,8 +9,8 @@ use crate::buffer::Buffer;
 use crate::opened::Opened;
 use crate::room::Room;
 
-/// The numbers that a pass writes for each place, in the block form, which writes more than the
-/// weighted form.
+/// The numbers that a pass writes for each place. The block form of docs/SETTLING.md writes most:
+/// nine for each of an interval's four points, and six for the interval.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
 /// The buffers that the kernels read and write.
@@ -20,8 +20,10 @@ pub(super) struct Memory {
     pub(super) strands: Buffer,
     pub(super) chord_rows: Buffer,
     pub(super) places: Buffer,
-    /// The places that the last pass measured, before it moved them. The next pass writes here.
+    /// The places that the last pass measured, before it moved them. The next pass writes its
+    /// places here, and then both buffers change their roles.
     pub(super) seen: Buffer,
+    /// The places of the best pass so far.
     pub(super) kept: Buffer,
     /// The last step of each point, mm.
     pub(super) steps: Buffer,
@@ -31,10 +33,11 @@ pub(super) struct Memory {
     /// half height.
     pub(super) chords: Buffer,
     pub(super) pulls: Buffer,
-    /// The measures of each workgroup of a pass, and those of the whole pass.
+    /// The measures of each workgroup of a pass.
     pub(super) rows: Buffer,
+    /// The measures of the whole pass.
     pub(super) all: Buffer,
-    /// The extent of the chords of each workgroup.
+    /// The extent of the chords that each workgroup looks at, of at most [`EXTENT_GROUPS`].
     pub(super) extents: Buffer,
     /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: Buffer,
@@ -57,7 +60,8 @@ impl Memory {
         let groups = places.div_ceil(SETTLING_PULL_WEIGHTED.group as u64);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // There are at most as many cells as chords, or 64 if there are fewer chords.
+        // There are at most as many cells as chords, or 64 if there are fewer chords. One number
+        // more is the end of the last cell.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -88,11 +92,13 @@ impl Memory {
         })
     }
 
-    /// Makes room for `count` neighbours, and for an eighth more if memory allows it.
+    /// Makes room for `count` neighbours, and for an eighth more if memory allows it, so
+    /// that lists that grow a little take no new memory.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, opened: &Opened, count: u32) -> Result<(), BackendError> {
         let (what, bytes) = ("neighbours of chords", 4 * u64::from(count));
+        // A scan whose sum no `u32` holds gives `u32::MAX`.
         if count == u32::MAX {
             return Err(BackendError::OutOfMemory(OutOfMemory { what, bytes }));
         }

@@ -10,8 +10,8 @@ use wgpu::{BindingResource, BufferUsages};
 use crate::gpu::Gpu;
 use crate::room::Room;
 
-/// The numbers that a pass writes for each place, in the block form, which writes more than the
-/// weighted form.
+/// The numbers that a pass writes for each place. The block form of docs/SETTLING.md writes most:
+/// nine for each of an interval's four points, and six for the interval.
 const PULL_PLANES: u64 = 4 * 9 + 6;
 
 /// The number of lanes of a workgroup of places, which write one row together.
@@ -25,8 +25,10 @@ pub(super) struct Memory {
     strands: wgpu::Buffer,
     chord_rows: wgpu::Buffer,
     pub(super) places: wgpu::Buffer,
-    /// The places that the last pass measured, before it moved them. The next pass writes here.
+    /// The places that the last pass measured, before it moved them. The next pass writes its
+    /// places here, and then both buffers change their roles.
     pub(super) seen: wgpu::Buffer,
+    /// The places of the best pass so far.
     pub(super) kept: wgpu::Buffer,
     /// The last step of each point, mm.
     pub(super) steps: wgpu::Buffer,
@@ -36,10 +38,11 @@ pub(super) struct Memory {
     /// half height.
     chords: wgpu::Buffer,
     pulls: wgpu::Buffer,
-    /// The measures of each workgroup of a pass, and those of the whole pass.
+    /// The measures of each workgroup of a pass.
     rows: wgpu::Buffer,
+    /// The measures of the whole pass.
     pub(super) all: wgpu::Buffer,
-    /// The extent of the chords of each workgroup.
+    /// The extent of the chords that each workgroup looks at, of at most [`EXTENT_GROUPS`].
     pub(super) extents: wgpu::Buffer,
     /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: wgpu::Buffer,
@@ -63,7 +66,8 @@ impl Memory {
         let (places, chords) = (plan.counts().places, plan.counts().chords);
         let of = |count: u64, each: usize| count * each as u64;
         let place_bytes = of(places, size_of::<Place>());
-        // There are at most as many cells as chords, or 64 if there are fewer chords.
+        // There are at most as many cells as chords, or 64 if there are fewer chords. One number
+        // more is the end of the last cell.
         let counts = chords.max(64) + 1;
         let mut sums = Vec::new();
         let mut values = counts;
@@ -103,7 +107,8 @@ impl Memory {
         self.room.binding_bytes
     }
 
-    /// Makes room for `count` neighbours, and for an eighth more if memory allows it.
+    /// Makes room for `count` neighbours, and for an eighth more if memory allows it, so
+    /// that lists that grow a little take no new memory.
     ///
     /// **Errors**: [`BackendError::OutOfMemory`].
     pub(super) fn reserve_neighbours(&mut self, gpu: &Gpu, count: u32) -> Result<(), BackendError> {

@@ -14,11 +14,13 @@ pub(crate) struct Plans {
     pub(crate) shedding: Shedding,
     /// The lift plan of a file that has a tie-up and a treadling as well.
     pub(crate) other: Option<Shedding>,
+    /// Whether the shafts that are tied to a treadle rise. Otherwise they sink.
     pub(crate) rising_shed: bool,
 }
 
 impl Plans {
-    /// The draft and its drawdown. If the other shedding weaves another cloth, a warning says so.
+    /// The draft and its drawdown. If the other shedding weaves another cloth, a warning says
+    /// so, and the treadling is taken.
     pub(crate) fn draft(
         self,
         file: &Path,

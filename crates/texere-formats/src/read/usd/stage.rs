@@ -1,5 +1,5 @@
-//! The prims of a stage, which are its named parts, with what their curves and their places need.
-//! All else is passed over.
+//! Parses a USD stage into prims, which are its named parts. Of each prim, curves and transforms
+//! are kept. Other properties are skipped.
 
 use texere_core::backend::room_for;
 
@@ -8,7 +8,7 @@ use super::tokens::{Kind, Token, Tokens};
 use super::values::unescaped;
 use crate::read::ReadError;
 
-/// What a file says, before any of it is worked out.
+/// A stage as parsed. Its values are those of the file, and no transform is applied yet.
 #[derive(Debug)]
 pub(super) struct Stage<'a> {
     /// The length of the unit, m.
@@ -28,9 +28,10 @@ pub(super) struct Prim<'a> {
     pub(super) kind: Token<'a>,
     /// What people are shown: the prim's `displayName`, or else its name.
     pub(super) name: String,
-    /// Whether the prim is there: defined, active, visible, and neither a guide nor a stand-in.
+    /// Whether the prim is to be read: defined, active, visible, and neither a guide nor a stand-in
+    /// (`proxy`).
     pub(super) is_there: bool,
-    /// Where the prim is within the prim that it is in.
+    /// The prim's transform relative to its parent.
     pub(super) place: Option<Box<Place<'a>>>,
     /// The curves of a prim of the type `BasisCurves`.
     pub(super) curves: Option<Box<Curves<'a>>>,
@@ -39,16 +40,16 @@ pub(super) struct Prim<'a> {
 /// The curves of a prim.
 #[derive(Debug, Default)]
 pub(super) struct Curves<'a> {
-    /// For each curve, how many of the points it has.
+    /// The number of points of each curve.
     pub(super) counts: Vec<u32>,
     pub(super) points: Vec<[f32; 3]>,
-    /// The name of the points that change with time.
+    /// The token `points.timeSamples`, for the message, if the points change with time.
     pub(super) moving: Option<Token<'a>>,
     /// Diameters.
     pub(super) widths: Values<'a, f32>,
-    /// Diameters that count instead, if there are any.
+    /// `primvars:widths`. It replaces `widths` unless it is empty.
     pub(super) primvar_widths: Values<'a, f32>,
-    /// For each curve, which of the stage's yarns it is. texere writes these numbers.
+    /// `primvars:yarn`: the number of each curve's yarn. Only texere writes it.
     pub(super) yarns: Vec<u32>,
     /// Colours in linear light.
     pub(super) colors: Values<'a, [f32; 3]>,
@@ -74,7 +75,7 @@ impl<T> Default for Values<'_, T> {
     }
 }
 
-/// What is said of a property, or of a prim, in round brackets behind its name.
+/// The metadata in round brackets after the name of a property or of a prim.
 #[derive(Debug, Default)]
 struct Said<'a> {
     interpolation: Option<Token<'a>>,
@@ -82,7 +83,8 @@ struct Said<'a> {
     is_off: bool,
 }
 
-/// Other parts of a stage, which may be in other files or in variants. They are not read.
+/// The fields that compose a stage from other files or from variants. A stage with one of them is
+/// refused.
 const COMPOSED: [&str; 6] = ["subLayers", "references", "payload", "inherits", "specializes", "variants"];
 
 /// The words before a property's type.
@@ -91,7 +93,7 @@ const QUALIFIERS: [&str; 9] =
 
 /// Reads a stage.
 pub(super) fn stage<'a>(tokens: &mut Tokens<'a>) -> Result<Stage<'a>, ReadError> {
-    // A stage that says neither is in centimetres, and y is up.
+    // USD's defaults: without `metersPerUnit` the unit is a centimetre. Without `upAxis` y is up.
     let mut stage = Stage { unit_m: 0.01, up: "Y", prims: Vec::new() };
     if tokens.took(b'(')? {
         said(tokens, |name, tokens| {
@@ -134,7 +136,7 @@ fn parent(stage: &Stage<'_>, prim: usize) -> Option<usize> {
     stage.prims[prim].parent
 }
 
-/// The rest of a prim's beginning, up to the bracket that opens its contents.
+/// Parses a prim's header after `def`, `over` or `class`, up to and including `{`.
 fn prim<'a>(
     tokens: &mut Tokens<'a>,
     specifier: Token<'a>,
@@ -155,8 +157,8 @@ fn prim<'a>(
     })
 }
 
-/// What is said in round brackets, of which the first one has been taken. `own` takes the value of
-/// a name that it knows, and says whether it did.
+/// Parses metadata up to `)`. The caller has taken `(`. `own` reads the value of a name that it
+/// knows, and returns whether it did.
 fn said<'a>(
     tokens: &mut Tokens<'a>,
     mut own: impl FnMut(&str, &mut Tokens<'a>) -> Result<bool, ReadError>,
@@ -166,7 +168,7 @@ fn said<'a>(
         let mut token = tokens.next()?;
         match token.kind {
             Kind::Sign(b')') => return Ok(said),
-            // A remark.
+            // Comments of the metadata, and separators.
             Kind::Text | Kind::Sign(b';' | b',') => continue,
             Kind::Word => {}
             _ => return Err(tokens.refused(token, "a name or a bracket )")),
@@ -190,7 +192,7 @@ fn said<'a>(
     }
 }
 
-/// Whether the next value is `None` or empty brackets. It stays the next one.
+/// Whether the next value is `None`, `[]` or `{}`. The value is not taken.
 fn is_nothing(tokens: &Tokens<'_>) -> Result<bool, ReadError> {
     let mut ahead = *tokens;
     let first = ahead.next()?;
@@ -280,7 +282,7 @@ fn value<'a>(tokens: &mut Tokens<'a>, name: Token<'a>, prim: &mut Prim<'a>) -> R
         }
         "primvars:displayColor:indices" => curves.color_indices = tokens.list("curves", Tokens::count)?,
         "primvars:displayColor" => curves.colors.values = tokens.list("colours of curves", triple)?,
-        // Other programs may call something else by this name.
+        // Other programs may store other data under this name. Then it is skipped.
         "primvars:yarn" => {
             let mut ahead = *tokens;
             if let Ok(yarns) = ahead.list("curves", Tokens::count) {

@@ -1,4 +1,4 @@
-//! The table of a design file that says how a warp knit is knitted.
+//! Writes the table `[warp_knit]` of a design file.
 
 use texere_fabric::warp::{Bar, Threading, WarpKnitted};
 use texere_fabric::{SPACING_MAX, SPACING_MIN};
@@ -16,7 +16,7 @@ pub(super) fn warp_table(
     knit: &WarpKnitted,
     left_out: &mut Vec<String>,
 ) -> Result<(String, Yarns), WriteError> {
-    // In a threading such a name would stand for empty guides.
+    // No yarn has a name whose last word is `out`: in a threading, `out` is a guide without yarn.
     let is_yarn = |name: &str| name.split_whitespace().next_back() != Some(GUIDE_WITHOUT_YARN);
     let yarns = Yarns::of_knit(knit.guide_yarns(), knit.materials(), knit.sections(), is_yarn)?;
     let [wales, courses] = knit.lapped_size();
@@ -62,7 +62,8 @@ fn bar_keys(number: usize, bar: &Bar, yarns: &Yarns) -> Result<Vec<String>, Writ
     Ok(keys)
 }
 
-/// The items of a threading.
+/// The items of the key `threading`. Neighbouring guides with one yarn, or without yarn, are one
+/// item.
 fn threading(threading: &Threading, yarns: &Yarns) -> Vec<String> {
     let runs = threading.guides().chunk_by(|one, other| one == other);
     let items = |run: &[Option<u32>]| match (run[0], run.len()) {

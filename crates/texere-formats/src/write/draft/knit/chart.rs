@@ -14,25 +14,26 @@ use crate::write::draft::sheet::{Block, INK, PAPER, Rgb, Sheet};
 use crate::write::picture::png;
 use crate::write::{Output, WriteError};
 
-/// The most wales, and the most passes of carriers, of a needle diagram.
+/// The most wales, and the most passes of carriers, of a needle diagram. By eye: with more, its
+/// loops are hard to tell apart.
 const NEEDLES_MAX: usize = 100;
 
-/// The most squares of a chart. A large Jacquard has as many.
+/// The most squares of a chart: 8,192 by 8,192, more wales and courses than machines knit.
 const SQUARES_MAX: usize = 1 << 26;
 
-/// The smallest square with a symbol in it, pixels.
+/// The smallest square with a symbol in it, pixels. By eye.
 const SYMBOL_MIN: usize = 6;
 
-/// The colour of a square that no yarn comes to.
+/// The colour of a square where no yarn knits, tucks or floats.
 const NONE: Rgb = [205, 205, 205];
 
-/// The least brightness, as a sum of the channels, of a colour with symbols in black. Darker
-/// colours have symbols in white.
+/// The sum of a colour's three channels below which the colour is dark. Symbols are white on dark
+/// colours, and black on others. By eye.
 const DARK: u32 = 300;
 
 /// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece if the knit has no
-/// repeat. The needle diagram stands below the chart if the chart shows the face and has at most
-/// 100 wales and 100 passes of carriers. Returns the picture's width and height in pixels.
+/// repeat. The needle diagram stands below the chart if `side` is the face and the knit has at
+/// most 100 wales and 100 passes of carriers. Returns the picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].
@@ -63,7 +64,7 @@ pub fn knit_draft_to(cloth: &Knitted, side: Side, out: impl Write) -> Result<[u3
     drawn(cloth, side, |sheet| sheet.save_to(out))
 }
 
-/// Draws a knit on a sheet, and saves it as `save` does.
+/// Draws a knit on a sheet, and passes the sheet to `save`.
 fn drawn(
     cloth: &Knitted,
     side: Side,

@@ -12,14 +12,16 @@ use crate::ContactError;
 use crate::watch::Watch;
 
 /// The most cells that an interval may lie in on average. If intervals lie in more, the cells are
-/// made larger.
+/// made larger. Half as many and twice as many break no test.
 pub(crate) const ENTRIES: u64 = 6;
 
 /// A cell's side over the mean of the boxes' longest sides. Most boxes then lie in one or two
-/// cells, and few boxes of a cell are far from one another.
+/// cells, and few boxes of a cell are far from one another. Half as much breaks
+/// `a_crowd_is_nearer_somewhere_than_its_fill_says`; twice as much breaks no test.
 const CELL: f64 = 1.75;
 
-/// If there are no more cells than this along an axis, one cell replaces them.
+/// If there are no more cells than this along an axis, one cell replaces them. Half as much breaks
+/// `a_crowd_is_nearer_somewhere_than_its_fill_says`; twice as much breaks no test.
 const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.

@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 /// The most halvings of a stretch of time. Chords that may still meet in so short a stretch count
-/// as meeting.
+/// as meeting. Half as many and twice as many break no test.
 const HALVINGS: u32 = 10;
 
 /// A chord whose ends move along straight lines from one time to another.

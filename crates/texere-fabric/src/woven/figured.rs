@@ -8,19 +8,23 @@ use super::{BySet, Drawdown};
 
 /// The numbers of crossing threads, on one side of a crossing, by which two neighbours are compared
 /// there. Sixteen hold a repeat of 8-end satin in each of two layers, and four that of plain weave.
-/// Fewer are needed inside small figures.
+/// Fewer are needed inside small figures. Twice each breaks `small_figures_are_found`; half of each
+/// breaks no test.
 const NEAR: [usize; 3] = [4, 8, 16];
 
 /// The fewest crossing threads that pass between two neighbours, one of which lies above the other.
 /// A single one passes between neighbours of 3/3 twill, and others further on pass the other way.
+/// Half as many and twice as many break `layers_that_change_places_are_found_by_place`.
 const PASSING: u32 = 2;
 
 /// The least share of crossings at which both threads lie in one of two layers, in a figured double
-/// cloth. The rest may be single cloth.
+/// cloth. The rest may be single cloth. Half as much breaks
+/// `threads_without_any_order_lie_side_by_side`, and twice as much `small_figures_are_found`.
 const DOUBLE: f64 = 0.5;
 
 /// The least share of crossings at which a thread lies in another layer than in the cloth as a
 /// whole, if that is a double cloth. Stitches also look like a change, but take less of a cloth.
+/// Half as much and twice as much break no test.
 const CHANGED: f64 = 0.05;
 
 /// The largest distance, in threads along a thread, at which crossings near a change of layers

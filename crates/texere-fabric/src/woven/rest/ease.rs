@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// The most rounds in which points are moved to ease bends.
+/// The most rounds in which points are moved to ease bends. Twice as many breaks
+/// `cloths_of_the_mills_come_to_rest`.
 const EASINGS: usize = 40;
 
 /// The step of a point in a round, as a share of its second difference in height.

@@ -31,10 +31,10 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     peak
 }
 
-/// A mesh of 600 MB is streamed. The bound counts the control points and two chunks with their
+/// A mesh of 240 MB is streamed. The bound counts the control points and two chunks with their
 /// tables. A chunk has two buffers of 64 MiB at most.
 fn a_stream_peaks_at_two_chunks() {
-    let yarns = cases::winding(1_000_000, Yarn::default());
+    let yarns = cases::winding(400_000, Yarn::default());
     let points = size_of_val(yarns.points());
     let two_chunks = 2 * (2 * (64 << 20) + (1 << 20));
     for device in texere::devices().found.into_iter().filter(|device| device.name != "cpu-serial") {
@@ -48,7 +48,7 @@ fn a_stream_peaks_at_two_chunks() {
     }
 }
 
-/// A mesh of 2,000 yarns and 96 MB of vertices is written with chunks of 8 MiB. Besides the
+/// A mesh of 2,000 yarns and 38 MB of vertices is written with chunks of 8 MiB. Besides the
 /// control points and two chunks, a writer may take 3 kB for each yarn. Most of this is the
 /// document of glTF.
 fn a_file_peaks_at_two_chunks_in_any_format() {
@@ -57,7 +57,7 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
         let place = |pick: u32| ControlPoint::new(end as f32, pick as f32, (pick % 2) as f32 * 0.3, 0.2);
         yarns.yarn(
             Yarn { origin: Origin::End(end + 1), ..Yarn::default() },
-            &(0..100).map(place).collect::<Vec<_>>(),
+            &(0..40).map(place).collect::<Vec<_>>(),
         );
     }
     let yarns = yarns.build().unwrap();

@@ -31,10 +31,10 @@ fn peak_of<T>(work: impl FnOnce() -> T) -> f64 {
     peak
 }
 
-/// A mesh of 240 MB is streamed. The bound counts the control points and two chunks with their
+/// A mesh of 350 MB is streamed. The bound counts the control points and two chunks with their
 /// tables. A chunk has two buffers of 64 MiB at most.
 fn a_stream_peaks_at_two_chunks() {
-    let yarns = cases::winding(400_000, Yarn::default());
+    let yarns = cases::winding(600_000, Yarn::default());
     let points = size_of_val(yarns.points());
     let two_chunks = 2 * (2 * (64 << 20) + (1 << 20));
     for device in texere::devices().found.into_iter().filter(|device| device.name != "cpu-serial") {

@@ -12,16 +12,16 @@ use crate::ContactError;
 use crate::watch::Watch;
 
 /// The most cells that an interval may lie in on average. If intervals lie in more, the cells are
-/// made larger. Half as many and twice as many break no test.
+/// made larger. With half the value, and with twice, no test is red.
 pub(crate) const ENTRIES: u64 = 6;
 
 /// A cell's side over the mean of the boxes' longest sides. Most boxes then lie in one or two
-/// cells, and few boxes of a cell are far from one another. Half as much breaks
-/// `a_crowd_is_nearer_somewhere_than_its_fill_says`; twice as much breaks no test.
+/// cells, and few boxes of a cell are far from one another. With half the value,
+/// `a_crowd_is_nearer_somewhere_than_its_fill_says` is red; with twice, no test is.
 const CELL: f64 = 1.75;
 
-/// If there are no more cells than this along an axis, one cell replaces them. Half as much breaks
-/// `a_crowd_is_nearer_somewhere_than_its_fill_says`; twice as much breaks no test.
+/// If there are no more cells than this along an axis, one cell replaces them. With half the value,
+/// `a_crowd_is_nearer_somewhere_than_its_fill_says` is red; with twice, no test is.
 const LAYERS: f32 = 4.0;
 
 /// A box with sides along the axes.

@@ -8,7 +8,7 @@ use crate::interval::tangent;
 use crate::{ControlPoint, Layout, Yarn, YarnError, Yarns};
 
 /// The step of the difference quotients that measure how a map stretches, as a share of the yarn's
-/// half height at the point. Half as much and twice as much break no test.
+/// half height at the point. With half the value, and with twice, no test is red.
 const NEAR: f64 = 0.01;
 
 /// A mapped yarn: its control points, its up directions, and its length divided by its length

@@ -24,7 +24,8 @@ const HANDED_OVER: f32 = 15.0 / 360.0;
 /// upright frame does not count. In a binder that goes straight down through the cloth, tiny
 /// sideways moves decide the direction of that frame's side. Without this limit a binder turns on
 /// its way down, and is still turned where it lies level again
-/// (`a_flat_yarn_stands_upright_where_it_lies_flat`). Half as much and twice as much break no test.
+/// (`a_flat_yarn_stands_upright_where_it_lies_flat`). With half the value, and with twice, no test
+/// is red.
 const NEAR_POLE: f32 = 0.067;
 
 /// The number of points before and after one lap of a closed yarn that the lap's ups depend on. In

@@ -17,8 +17,8 @@ use crate::{ControlPoint, Frame};
 /// The frames of woven threads that keep to their planes do not turn, and those of threads that are
 /// pushed aside in a settled cloth turn by up to a degree. The frames of the loops of knits turn by
 /// 10 degrees and more. Two rings are at most an interval apart, so the tube between them is never
-/// narrower than cos 2° of its radius. Half as much breaks
-/// `a_plied_yarn_meets_itself_from_either_end`; twice as much breaks no test.
+/// narrower than cos 2° of its radius. With half the value,
+/// `a_plied_yarn_meets_itself_from_either_end` is red; with twice, no test is.
 pub(crate) const UPRIGHT_TURN: f32 = 4.0 / 360.0;
 
 /// Number of steps within an interval whose turns are added up. With 4 steps a hairpin through the

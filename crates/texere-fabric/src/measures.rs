@@ -16,8 +16,8 @@ use crate::{BySet, FabricError, Thread, Woven, tex_from_cotton_count};
 
 /// Number of steps in each control interval at which the height is measured. The spline's height is
 /// a cubic. A step lies within 1/64 of an interval of each turning point, and the error of the
-/// height there grows with the square of that distance. Half as many and twice as many break no
-/// test.
+/// height there grows with the square of that distance. With half the value, and with twice, no
+/// test is red.
 const SAMPLES: u32 = 32;
 
 /// Number of cotton yarns of count Ne 1 that lie side by side in an inch.

@@ -2,8 +2,8 @@
 
 use texere_core::{Section, SectionPoint};
 
-/// Number of points of the outline at which a section is measured. Half as many and twice as many
-/// break no test.
+/// Number of points of the outline at which a section is measured. With half the value, and with
+/// twice, no test is red.
 const POINTS: u32 = 1024;
 
 /// The relative error of sizes computed in `f32`.

@@ -16,7 +16,8 @@ fn assert_matches(backend: &dyn Backend, name: &str, yarns: &texere_core::Yarns,
     assert!(report.is_clean(), "{name}: {report}");
 }
 
-/// Runs the suite's cases named `PREFIX::FRAME` for each of `prefixes`. Each has two, one a frame.
+/// Runs the suite's cases named `PREFIX::FRAME` for each of `prefixes`. Each prefix has two
+/// cases, one for each frame.
 fn run_cases(prefixes: &[&str]) {
     let chosen = cases::all()
         .into_iter()

@@ -12,14 +12,14 @@ use super::support::Support;
 const AT_KNOT: f64 = 1e-6;
 
 /// How far refinement may leave an interval before the approach belongs to another one, in
-/// intervals. Half as much breaks `a_crossing_on_a_control_point_is_one_contact`; twice as much
-/// breaks no test.
+/// intervals. With half the value, `a_crossing_on_a_control_point_is_one_contact` is red; with
+/// twice, no test is.
 pub(super) const MARGIN: f64 = 0.05;
 
 /// The most steps of one refinement.
 pub(super) const STEPS: usize = 40;
 
-/// The longest step, in intervals. Half as much and twice as much break no test.
+/// The longest step, in intervals. With half the value, and with twice, no test is red.
 pub(super) const STRIDE: f64 = 0.25;
 
 /// The length of a step that ends refinement, in intervals. The place is then off by about as much,

@@ -6,12 +6,12 @@ use super::interval::{Cubic, closest};
 
 /// How far an interval may lie from its chords, in radii of its yarn. The distance is small enough
 /// that almost every approach of two yarns is also an approach of their chords, and that refinement
-/// from there converges. Half as much and twice as much break no test.
+/// from there converges. With half the value, and with twice, no test is red.
 pub(super) const SAGITTA: f64 = 0.1;
 
 /// How far an interval may lie from its fine chords, in radii of its yarn. The clearance ratio at
 /// the fine chords then differs by less than [`CLEARANCE_ACCURACY`](crate::CLEARANCE_ACCURACY) from
-/// the ratio at the curves. Half as much and twice as much break no test.
+/// the ratio at the curves. With half the value, and with twice, no test is red.
 pub(super) const SAGITTA_FINE: f64 = 0.0005;
 
 /// Chords of usual size. An interval has 12 at most.

@@ -8,16 +8,16 @@ use glam::{DVec2, DVec3};
 use super::interval::Cubic;
 use super::support::Support;
 
-/// The share by which the true tightest bend may be tighter than the one found. Half as much and
-/// twice as much break no test.
+/// The share by which the true tightest bend may be tighter than the one found. With half the
+/// value, and with twice, no test is red.
 const ACCURACY: f64 = 1e-3;
 
 /// The most times that an interval is halved. If the velocity reverses within so short a part, the
-/// yarn counts as turning straight back there. Half as many and twice as many break no test.
+/// yarn counts as turning straight back there. With half the value, and with twice, no test is red.
 const HALVINGS: u32 = 20;
 
 /// The number of halvings after which a section that is not a circle counts as reaching equally far
-/// everywhere in a part. Half as many and twice as many break no test.
+/// everywhere in a part. With half the value, and with twice, no test is red.
 const HALVINGS_FLAT: u32 = 3;
 
 /// A part of an interval as Bernstein coefficients. Each halving brings the coefficients four times

@@ -16,8 +16,8 @@ use crate::grid::Bounds;
 /// The most intervals ahead for which a yarn is tested to lead straight on.
 const LEAD: usize = 3;
 
-/// Number of control points from one entry of [`ways`] to the next: a stride. Half as many and
-/// twice as many break no test.
+/// Number of control points from one entry of [`ways`] to the next: a stride. With half the value,
+/// and with twice, no test is red.
 const STRIDE: usize = 64;
 
 const _: () = assert!(FRAC_1_SQRT_2 * std::f64::consts::FRAC_PI_2 > CLEARANCE_NEAR);

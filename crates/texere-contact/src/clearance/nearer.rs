@@ -8,7 +8,7 @@ use glam::{DVec2, DVec4, Vec4Swizzles};
 use super::interval::{Cubic, closest, off_chord};
 
 /// The most halvings of an interval. A piece that is left after the last halving is compared at one
-/// place only. Half as many and twice as many break no test.
+/// place only. With half the value, and with twice, no test is red.
 const HALVINGS: u32 = 12;
 
 /// A piece of an interval: centreline and radius as one Bézier polygon in four dimensions.

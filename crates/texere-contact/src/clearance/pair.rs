@@ -34,7 +34,7 @@ use crate::ContactError;
 use crate::watch::Watch;
 
 /// A section that reaches more than this many lengths of its interval counts by its hull alone,
-/// untwisted. Half as much and twice as much break no test.
+/// untwisted. With half the value, and with twice, no test is red.
 const DISC: f64 = 64.0;
 
 /// The greatest difference of two places that count as one, in intervals along either curve.

@@ -22,8 +22,8 @@ use crate::grid::{Bounds, Grid};
 use crate::watch::Watch;
 
 /// The most intervals of a cell that are compared in all pairs. If threads are clear of one
-/// another, a cell holds some 60 intervals, with one control point a crossing or with several.
-/// Twice as many breaks `one_crowd_does_not_hide_the_rest`; half as many breaks no test.
+/// another, a cell holds some 60 intervals, with one control point a crossing or with several. With
+/// twice the value, `one_crowd_does_not_hide_the_rest` is red; with half, no test is.
 pub(super) const FULL: usize = 256;
 
 /// Number of pairs between two reports of progress.

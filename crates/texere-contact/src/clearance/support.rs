@@ -6,11 +6,12 @@ use glam::{DVec2, DVec3};
 use texere_core::Section;
 
 /// Number of directions in which a section that is not a circle is measured. Between two of them
-/// the reach is off by 2e-5. Half as many and twice as many break no test.
+/// the reach is off by 2e-5. With half the value, and with twice, no test is red.
 const DIRECTIONS: usize = 512;
 
 /// Number of angles at which a section's outline is measured. Between two of them the outline is
-/// off by 1e-5, and by 1e-3 at a lens's two corners. Half as many and twice as many break no test.
+/// off by 1e-5, and by 1e-3 at a lens's two corners. With half the value, and with twice, no test
+/// is red.
 const ANGLES: usize = 2048;
 
 /// A section's support function: the furthest point of its outline in any direction, in radii of

@@ -11,8 +11,8 @@ use super::rolls::IntervalRolls;
 /// The most steps of Newton's method to the place of an interval that is level with a point.
 const STEPS: usize = 8;
 
-/// How far the [`STEPS`] may lead out of the interval, in intervals. Half as much and twice as much
-/// break no test.
+/// How far the [`STEPS`] may lead out of the interval, in intervals. With half the value, and with
+/// twice, no test is red.
 const STRAY: f64 = 0.25;
 
 /// The length of a step that ends the search, in intervals. The next step would be about as long as

@@ -44,8 +44,8 @@ const STEP: f64 = 0.25;
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
 /// The height of lobes and flat sides, as a share of the reach of both surfaces, up to which they
-/// don't show. Turns of a yarn with less relief than this need no finer steps. Half as much and
-/// twice as much break no test.
+/// don't show. Turns of a yarn with less relief than this need no finer steps. With half the value,
+/// and with twice, no test is red.
 const RELIEF: f64 = 1e-3;
 
 /// The most sections of an interval that are tried.
@@ -56,39 +56,39 @@ const SECTIONS_MAX: usize = 4096;
 const SLACK: f64 = 0.015;
 
 /// Once this many starts and ends of descents are known, [`SLACK`] no longer counts. From then on a
-/// descent starts only at a place whose growth is less than the least so far. Half as many and
-/// twice as many break no test.
+/// descent starts only at a place whose growth is less than the least so far. With half the value,
+/// and with twice, no test is red.
 const PLACES: usize = 16;
 
 /// The growth below which no lesser growth is looked for. The surfaces then pierce one another
-/// deeply. Half as much and twice as much break no test.
+/// deeply. With half the value, and with twice, no test is red.
 const DEEP: f64 = 0.25;
 
 /// A point inside a bent yarn may lie up to this many times as far from the yarn's tangent as the
 /// surface does.
 const BENT: f64 = 1.3;
 
-/// The largest error, in intervals, of the tangent's estimate of the place level with a point. Half
-/// as much and twice as much break no test.
+/// The largest error, in intervals, of the tangent's estimate of the place level with a point. With
+/// half the value, and with twice, no test is red.
 const SLANT: f64 = 0.2;
 
 /// The cosine of the angle up to which an interval may turn and still have a single place level
-/// with a point near it. Half as much and twice as much break no test.
+/// with a point near it. With half the value, and with twice, no test is red.
 const STRAIGHT: f64 = 0.7;
 
 /// The distance up to which two places of the thicker yarn count as one, in intervals.
 const SAME: f64 = 1e-3;
 
-/// The length of a descent's last steps, as a share of its first steps. Half as much and twice as
-/// much break no test.
+/// The length of a descent's last steps, as a share of its first steps. With half the value, and
+/// with twice, no test is red.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// The largest error of the ratio of tubes whose steps have not converged. Half as much and twice
-/// as much break no test.
+/// The largest error of the ratio of tubes whose steps have not converged. With half the value, and
+/// with twice, no test is red.
 const OFF: f64 = 0.1;
 
-/// The largest error of the ratio of tubes whose steps have converged. Half as much and twice as
-/// much break no test.
+/// The largest error of the ratio of tubes whose steps have converged. With half the value, and
+/// with twice, no test is red.
 const OFF_ENDED: f64 = 0.01;
 
 /// The accuracy of a growth.

@@ -12,21 +12,21 @@ use super::approach::{MARGIN, SHORT, STEPS, STRIDE, Side, refine};
 use super::contact::CLEARANCE_NEAR;
 use super::interval::At;
 
-/// The sine of the angle below which two tangents count as parallel. Half as much and twice as much
-/// break no test.
+/// The sine of the angle below which two tangents count as parallel. With half the value, and with
+/// twice, no test is red.
 const PARALLEL: f64 = 0.02;
 
-/// The ratio of tubes above which their surfaces count as apart, too. Half as much breaks
-/// `flattened_yarns_are_measured_by_their_surfaces`; twice as much breaks no test.
+/// The ratio of tubes above which their surfaces count as apart, too. With half the value,
+/// `flattened_yarns_are_measured_by_their_surfaces` is red; with twice, no test is.
 const FAR: f64 = CLEARANCE_NEAR + 0.1;
 
-/// The cosine of the angle up to which two yarns count as running side by side. Half as much and
-/// twice as much break no test.
+/// The cosine of the angle up to which two yarns count as running side by side. With half the
+/// value, and with twice, no test is red.
 const BESIDE: f64 = 0.9;
 
 /// Steps of the golden-section search for the direction that separates two parallel yarns best,
 /// over half a turn. They leave an error of 5e-3 rad in the direction, and of about its square in
-/// the ratio. Half as many and twice as many break no test.
+/// the ratio. With half the value, and with twice, no test is red.
 const AROUND: usize = 13;
 
 /// The golden section.

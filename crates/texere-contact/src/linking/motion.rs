@@ -3,7 +3,7 @@
 use glam::Vec3A;
 
 /// The most halvings of a stretch of time. Chords that may still meet in so short a stretch count
-/// as meeting. Half as many and twice as many break no test.
+/// as meeting. With half the value, and with twice, no test is red.
 const HALVINGS: u32 = 10;
 
 /// A chord whose ends move along straight lines from one time to another.

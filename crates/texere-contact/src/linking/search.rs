@@ -26,8 +26,8 @@ pub(super) const SEARCH: u64 = 1 << 32;
 const REPORT_EVERY: u64 = 256;
 
 /// The least number of intervals between two intervals of one yarn that are compared. Windows of
-/// nearer intervals would be too short to show a passage. Twice as much breaks
-/// `the_same_is_found_whatever_the_threads`; half as much breaks no test.
+/// nearer intervals would be too short to show a passage. With twice the value,
+/// `the_same_is_found_whatever_the_threads` is red; with half, no test is.
 const NEIGHBOURS: f64 = 6.0;
 
 /// The yarns in both shapes, with the cells of their intervals in one of the shapes.

@@ -3,12 +3,12 @@
 /// Number of passes in which threads grow and penalties harden.
 pub(super) const GROWING: u32 = 50;
 
-/// The share of their full area that threads have at first. Twice as much breaks
-/// `mirrored_cloth_rests_mirrored`.
+/// The share of their full area that threads have at first. With twice the value,
+/// `mirrored_cloth_rests_mirrored` is red.
 const THIN: f64 = 0.4;
 
-/// The weight of penalties at first, and in the end. Half of each breaks
-/// `far_from_its_edges_a_piece_rests_as_a_repeat`, and twice each `layers_change_places`.
+/// The weight of penalties at first, and in the end. With half the values,
+/// `far_from_its_edges_a_piece_rests_as_a_repeat` is red; with twice, `layers_change_places`.
 const PENALTIES: [f64; 2] = [30.0, 1000.0];
 
 /// The settings of one pass.

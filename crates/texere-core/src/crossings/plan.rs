@@ -41,13 +41,13 @@ const LEAST_AREA: [f32; 2] = [0.0, 1.0];
 const WEFT_TAUTER: f32 = 1.004;
 
 /// The largest height of a thread above or below the middle of the cloth, in units, for each level
-/// of the set with most levels. Half as much breaks `uneven_cloth_comes_to_rest_whole`; twice as
-/// much breaks no test.
+/// of the set with most levels. With half the value, `uneven_cloth_comes_to_rest_whole` is red;
+/// with twice, no test is.
 const HEIGHT: f32 = 1.5;
 
 /// The share of its radius with which a thread starts. It is the square root of 0.4, so that the
-/// thread has 0.4 of its area. Half as much and twice as much break
-/// `far_from_its_edges_a_piece_rests_as_a_repeat`.
+/// thread has 0.4 of its area. With half the value, and with twice,
+/// `far_from_its_edges_a_piece_rests_as_a_repeat` is red.
 const THIN: f32 = 0.632_455_5;
 
 /// The tables of a problem. Lengths are in the plan's unit, the mean diameter of warp and weft.

@@ -6,8 +6,9 @@ use crate::backend::room;
 /// The bounds of a thread's shift sideways: a quarter of the plan's unit, and two fifths of the
 /// distance to the nearer neighbour. The smaller of the two holds. Without bounds, threads pass
 /// through one another. With half of the unit, plain weave of 10 tex with an end of 60 tex keeps
-/// swinging (`neighbours_give_way_to_a_thick_end` of texere-fabric). Half of each breaks
-/// `energy_goes_down_while_penalties_stay`, and twice each `turns_of_uneven_picks_do_not_touch`.
+/// swinging (`neighbours_give_way_to_a_thick_end` of texere-fabric). With half the values,
+/// `energy_goes_down_while_penalties_stay` is red; with twice,
+/// `turns_of_uneven_picks_do_not_touch`.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// The ratio of width to thickness that a thread of ordinary twist tends to, if it is round when

@@ -6,13 +6,13 @@ use super::pass::GROWING;
 use super::{CrossingsPass, CrossingsPlan, CrossingsSeen, CrossingsSettler};
 use crate::BackendError;
 
-/// A pass counts as still if no unknown moves further than this, in the plan's unit. Twice as much
-/// breaks `layers_lie_on_one_another`.
+/// A pass counts as still if no unknown moves further than this, in the plan's unit. With twice the
+/// value, `layers_lie_on_one_another` is red.
 const STILL: f32 = 5e-5;
 
 /// The number of still passes in a row after which the cloth is at rest. One is not enough, because
-/// an oscillation stands still for a moment where it turns. Half as many breaks
-/// `layers_lie_on_one_another`, and twice as many `turns_do_not_fold`.
+/// an oscillation stands still for a moment where it turns. With half the value,
+/// `layers_lie_on_one_another` is red; with twice, `turns_do_not_fold`.
 const STILL_PASSES: u32 = 10;
 
 /// The result of a settling.

@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use crate::counted;
 
-/// Settings that can't be planned for, a plan that exceeds limits, or an edit that its plan has no
-/// room for.
+/// Settings that can't be planned for, a plan that exceeds limits, or an edit that its plan can't
+/// take.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {

@@ -66,7 +66,7 @@ pub struct RelaxationPull {
     pub repeat: DVec2,
     /// The energy.
     pub energy: Energy,
-    /// What all of this energy does to the interval itself.
+    /// How this energy pulls at the interval itself.
     pub own: RelaxationPress,
     /// What the contacts do to the neighbours.
     pub presses: Vec<RelaxationPress>,
@@ -74,7 +74,7 @@ pub struct RelaxationPull {
     forces: Vec<DVec3>,
 }
 
-/// What an energy does to an interval.
+/// How an energy pulls at an interval: its slopes, its contact forces and their stiffness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelaxationPress {
     /// The number of the interval.

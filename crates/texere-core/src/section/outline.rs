@@ -7,8 +7,8 @@ use crate::turn::atan2_turns;
 /// The least distance of the valley between two plies from the axis, in radii of the yarn.
 ///
 /// Two round plies that just touch leave a valley down to the axis. Real plies press flat against
-/// each other, and their loose fibres fill the rest. Half as much breaks `a_ply_lies_in_a_furrow`,
-/// and twice as much `a_carried_frame_does_not_flip_between_rings`.
+/// each other, and their loose fibres fill the rest. With half the value, `a_ply_lies_in_a_furrow`
+/// is red; with twice, `a_carried_frame_does_not_flip_between_rings`.
 const VALLEY: f32 = 0.5;
 
 /// Number of points at which the extent and the area of a section are measured. A polygon of 1,024

@@ -14,8 +14,8 @@ use crate::{BackendError, Ends};
 const CHORDS_MIN: u32 = 2;
 
 /// The largest mean length of an interval's chords, as a share of the smaller diameter at its ends.
-/// Half as much and twice as much break
-/// `yarns_that_can_t_be_cut_into_intervals_or_chords_are_refused`.
+/// With half the value, and with twice,
+/// `yarns_that_can_t_be_cut_into_intervals_or_chords_are_refused` is red.
 const CHORD_MOST: f32 = 0.6;
 
 /// The most chords of an interval.
@@ -45,7 +45,7 @@ pub const SKIN: f32 = 0.2;
 
 /// The most that a chord moves, divided by the longest move of its interval's control points. A
 /// place of the spline is a sum of control points, and the sizes of their weights add up to at most
-/// 1.25, in the middle of an interval at tension 0. Half as much and twice as much break no test.
+/// 1.25, in the middle of an interval at tension 0.
 pub(super) const OVERSHOOT: f32 = 1.25;
 
 /// The counts of a settling.

@@ -13,25 +13,25 @@ use super::{
 use crate::backend::zeroed;
 use crate::{BackendError, ControlPoint};
 
-/// The share of their thickness that yarns have at first. Twice as much breaks
-/// `a_settled_repeat_fits_its_copies`; half as much breaks no test.
+/// The share of their thickness that yarns have at first. With twice the value,
+/// `a_settled_repeat_fits_its_copies` is red; with half, no test is.
 const THIN: f32 = 0.25;
 
 /// The number of steps in which yarns grow to their full thickness.
 const STEPS: u32 = 10;
 
-/// The number of passes of each step of growth. Half as many and twice as many break
-/// `a_settled_repeat_fits_its_copies`.
+/// The number of passes of each step of growth. With half the value, and with twice,
+/// `a_settled_repeat_fits_its_copies` is red.
 const STEP_PASSES: u32 = 4;
 
 /// The shares of the passes at full thickness up to which [`Pass::ease`] is 1, and from which on it
-/// is 0. Half of each breaks `rib_has_the_loop_length_and_thickness_of_the_books`, and twice each
-/// `a_settled_repeat_fits_its_copies`.
+/// is 0. With half the values, `rib_has_the_loop_length_and_thickness_of_the_books` is red; with
+/// twice, `a_settled_repeat_fits_its_copies`.
 const EASES: [f32; 2] = [0.3, 0.6];
 
 /// The largest random move of a point along each axis at the start, in diameters. Without these
-/// moves, symmetric yarns could balance at places that are not at rest. Half as much and twice as
-/// much break `a_settled_repeat_fits_its_copies`.
+/// moves, symmetric yarns could balance at places that are not at rest. With half the value, and
+/// with twice, `a_settled_repeat_fits_its_copies` is red.
 const JITTER: f32 = 0.01;
 
 /// The distance, divided by the sum of both reaches, from which on yarns count as clear.
@@ -41,15 +41,16 @@ const CLEAR: f32 = 0.995;
 const BENT: f32 = 0.99;
 
 /// The largest difference at rest between an interval's length and the length that it aims for, as
-/// a share of the length that it aims for. Half as much and twice as much break no test.
+/// a share of the length that it aims for. With half the value, and with twice, no test is red.
 const LENGTH: f32 = 0.01;
 
 /// The number of passes in which the [lack](Run::lack) must fall to [`STALLED`] of what it was. If
-/// it falls less, the weighted form has stalled. Half as many and twice as many break no test.
+/// it falls less, the weighted form has stalled. With half the value, and with twice, no test is
+/// red.
 const STALLS: u32 = 20;
 
-/// The share to which the lack must fall within [`STALLS`] passes. Half as much breaks
-/// `a_settled_repeat_fits_its_copies`; twice as much breaks no test.
+/// The share to which the lack must fall within [`STALLS`] passes. With half the value,
+/// `a_settled_repeat_fits_its_copies` is red; with twice, no test is.
 const STALLED: f32 = 0.9;
 
 /// The result of a settling.

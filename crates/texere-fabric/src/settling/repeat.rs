@@ -11,8 +11,8 @@ use crate::FabricError;
 
 /// The fewest wales, and the fewest courses, of a piece that settles, unless the cloth itself has
 /// fewer. In a piece of this size, the neighbour of a stitch across the seam between two repeats is
-/// another stitch, and not a copy of the stitch itself. Half as many breaks
-/// `run_ins_are_asked_for_and_measured`, and twice as many `jacquards_displace_single_guides`.
+/// another stitch, and not a copy of the stitch itself. With half the value,
+/// `run_ins_are_asked_for_and_measured` is red; with twice, `jacquards_displace_single_guides`.
 const SETTLED: u32 = 4;
 
 /// The control points that are copied between two looks whether to go on, some 5 ms of a slow core.

@@ -76,8 +76,8 @@ pub struct Press {
     pub reached_mm: f64,
 }
 
-/// The share by which cloth may be thicker than asked without a warning. Half as much and twice as
-/// much break no test.
+/// The share by which cloth may be thicker than asked without a warning. With half the value, and
+/// with twice, no test is red.
 const THICKER: f64 = 0.01;
 
 impl Press {

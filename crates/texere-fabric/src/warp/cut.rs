@@ -37,8 +37,8 @@ const ABOVE: u32 = 3;
 /// `figures_are_as_clear_where_they_are_cut_off` is red.
 ///
 /// One of 670 random figures of two diameters had a clearance below 0.99: 0.966, between two upper
-/// ends that were moved towards one another. `any_figure_rests` allows 0.95. Half of each breaks
-/// `cut_edges_are_as_clear_as_the_repeat`, and twice each `any_figure_rests`.
+/// ends that were moved towards one another. `any_figure_rests` allows 0.95. With half the values,
+/// `cut_edges_are_as_clear_as_the_repeat` is red; with twice, `any_figure_rests`.
 const ASIDE: [f32; 2] = [0.1, 1.0 / 7.0];
 
 impl WarpKnitted {

@@ -36,87 +36,88 @@ use super::{Bar, LapKind, PlacedLap};
 use crate::weft::{Cells, Gauge};
 
 /// Height of a loop from foot to head, in courses, if its bar has no run-in. By trial: single bars
-/// in closed and open tricot, pillar, cord and atlas stayed clear. Half as much breaks
-/// `loops_are_drawn_through_those_below`, and twice as much `a_knit_is_told_as_woven_cloth_is`.
+/// in closed and open tricot, pillar, cord and atlas stayed clear. With half the value,
+/// `loops_are_drawn_through_those_below` is red; with twice, `a_knit_is_told_as_woven_cloth_is`.
 const HEIGHT: f64 = 1.6;
 
 /// Range of heights that a run-in may lead to, in courses. Loops of any of these heights are drawn
-/// through the loops of the course below. Half of each and twice each break
-/// `run_ins_are_asked_for_and_measured`.
+/// through the loops of the course below. With half the values, and with twice,
+/// `run_ins_are_asked_for_and_measured` is red.
 const HEIGHTS: [f64; 2] = [1.45, 1.75];
 
 /// Number of halvings of [`HEIGHTS`]: 16 leave 5 millionths of a course.
 const HEIGHT_STEPS: u32 = 16;
 
-/// Half the distance between the feet of a loop, in wales. By trial, as [`HEIGHT`]. Half as much
-/// breaks `plates_press_locknit_flat`, and twice as much `warp_knits_come_to_rest`.
+/// Half the distance between the feet of a loop, in wales. By trial, as [`HEIGHT`]. With half the
+/// value, `plates_press_locknit_flat` is red; with twice, `warp_knits_come_to_rest`.
 const FOOT: f64 = 0.14;
 
-/// Height by which a loop begins below its course and ends above it, in courses. By eye. Half as
-/// much breaks `warp_knits_come_to_rest`, and twice as much `copies_have_names_of_their_own`.
+/// Height by which a loop begins below its course and ends above it, in courses. By eye. With half
+/// the value, `warp_knits_come_to_rest` is red; with twice, `copies_have_names_of_their_own`.
 const SLANT: f64 = 0.25;
 
 /// [`SLANT`] for a bar alone on its needles, whose laps are open and stay on one or two needles:
-/// pillar and open tricot. By trial, as [`HEIGHT`]. Twice as much breaks
-/// `yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large`; half as much breaks no
-/// test.
+/// pillar and open tricot. By trial, as [`HEIGHT`]. With twice the value,
+/// `yarns_of_few_points_a_repeat_have_the_same_numbers_small_and_large` is red; with half, no test
+/// is.
 const SLANT_STEEP: f64 = 0.05;
 
 /// Width by which each leg of a loop lies further in at its lower end, where it comes through
-/// another loop, and further out at its upper end, in diameters. By trial, as [`HEIGHT`]. Half as
-/// much breaks `loops_are_drawn_through_those_below`, and twice as much
+/// another loop, and further out at its upper end, in diameters. By trial, as [`HEIGHT`]. With half
+/// the value, `loops_are_drawn_through_those_below` is red; with twice,
 /// `run_ins_are_asked_for_and_measured`.
 const BULGE: f64 = 0.9;
-/// The largest width that [`BULGE`] may give, in wales. By eye. Half as much and twice as much
-/// break no test.
+/// The largest width that [`BULGE`] may give, in wales. By eye. With half the value, and with
+/// twice, no test is red.
 const BULGE_MOST: f64 = 0.2;
 
 /// Width by which each loop on a needle is wider or narrower than the next one at the lower ends of
-/// its legs, in diameters. By eye. Half as much and twice as much break
-/// `plates_press_locknit_flat`.
+/// its legs, in diameters. By eye. With half the value, and with twice, `plates_press_locknit_flat`
+/// is red.
 const ASIDE: f64 = 0.8;
 
-/// Length of the pieces of an underlap, in wales. By eye. Half as much breaks
-/// `warp_knits_come_to_rest`, and twice as much `a_knit_is_told_as_woven_cloth_is`.
+/// Length of the pieces of an underlap, in wales. By eye. With half the value,
+/// `warp_knits_come_to_rest` is red; with twice, `a_knit_is_told_as_woven_cloth_is`.
 const PIECE: f64 = 0.4;
 
-/// Distance of an underlap behind its feet, in diameters. By eye. Half as much breaks
-/// `plates_press_locknit_flat`; twice as much breaks no test.
+/// Distance of an underlap behind its feet, in diameters. By eye. With half the value,
+/// `plates_press_locknit_flat` is red; with twice, no test is.
 const UNDERLAP: f64 = 0.6;
 
 /// Distance in z between the loops on one needle, in diameters. By trial with two bars in locknit,
 /// satin, sharkskin and others. The legs of each loop have to lie in front of the heads of all
 /// loops. [`Cloth::loop_points`] therefore places legs further forward the more loops there are.
-/// Half as much breaks `plates_press_locknit_flat`, and twice as much
+/// With half the value, `plates_press_locknit_flat` is red; with twice,
 /// `loops_are_drawn_through_those_below`.
 const LAYER: f64 = 0.7;
 
 /// Distance of the feet of the hindmost of several bars behind the middle of the cloth, in
-/// diameters. By eye. Half as much breaks `plates_press_locknit_flat`, and twice as much
+/// diameters. By eye. With half the value, `plates_press_locknit_flat` is red; with twice,
 /// `run_ins_are_asked_for_and_measured`.
 const BEHIND: f64 = 2.0;
 /// Distance of the feet of a single bar behind the middle of the cloth, in diameters. By trial, as
-/// [`HEIGHT`]. Half as much breaks `a_knit_is_told_as_woven_cloth_is`; twice as much breaks no
-/// test.
+/// [`HEIGHT`]. With half the value, `a_knit_is_told_as_woven_cloth_is` is red; with twice, no test
+/// is.
 const BEHIND_ALONE: f64 = 2.2;
 /// Distance by which the feet of each bar lie further back than those of the next bar behind it, in
-/// diameters. By eye. Half as much breaks `plates_press_locknit_flat`, and twice as much
+/// diameters. By eye. With half the value, `plates_press_locknit_flat` is red; with twice,
 /// `run_ins_are_asked_for_and_measured`.
 const BAR: f64 = 1.8;
 
 /// Distance by which all feet lie further back for each loop on a needle beyond two, in diameters.
 /// Narrow loops have their feet close to their legs, and a spline turns sharply where a short piece
-/// meets a long one. By eye. Half as much and twice as much break no test.
+/// meets a long one. By eye. With half the value, and with twice, no test is red.
 const CROWDED: f64 = 1.0;
 
 /// Distance by which the feet of a loop lie further back for each loop of the same bar that comes
-/// before it on the needle, in diameters. By eye. Half as much and twice as much break no test.
+/// before it on the needle, in diameters. By eye. With half the value, and with twice, no test is
+/// red.
 const BESIDE: f64 = 0.9;
 
 /// Heights at which an inlay begins to cross wales and has crossed them all, in courses above its
 /// own. They lie between the feet of two courses. The inlay rises on its way, because all guides of
-/// its bar cross at once. By eye. Half of each breaks `warp_knits_come_to_rest`, and twice each
-/// `cut_edges_are_as_clear_as_the_repeat`.
+/// its bar cross at once. By eye. With half the values, `warp_knits_come_to_rest` is red; with
+/// twice, `cut_edges_are_as_clear_as_the_repeat`.
 const CROSSES: [f64; 2] = [0.3, 0.8];
 
 /// A yarn of a repeat, as laid: its first lap, its points in mm, and the course of each point,

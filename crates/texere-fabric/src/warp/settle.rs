@@ -17,7 +17,7 @@ use crate::{FabricError, Finish, FinishError, Measures, Piece, RelaxedKnit, Repe
 const GIVEN: [f64; 2] = [0.5, 2.0];
 
 /// Share by which the length of all yarns may differ from that of the run-ins without being
-/// changed. Half as much and twice as much break no test.
+/// changed. With half the value, and with twice, no test is red.
 const REACHED: f64 = 0.001;
 
 /// The run-in of a bar: the length of yarn that it takes for a rack of 480 courses.

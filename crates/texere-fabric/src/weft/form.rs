@@ -34,13 +34,23 @@ use super::shape::{
 use super::{Bed, Fate, LoopKind, Stitches};
 
 /// Height to which the uppermost of several crossing legs is lifted, in diameters. Each leg below
-/// it lies one diameter lower. By eye. Half as much and twice as much break no test.
+/// it lies one diameter lower. By eye. With half the value, and with twice, no test is red.
 const CROSSING: f64 = 0.7;
 
 /// Lean of the lower legs of a transferred loop, as a share of the distance to its new needle. The
-/// lower legs come out of the loop below, and have no room to lean further. By eye. Half as much
-/// and twice as much break no test.
+/// lower legs come out of the loop below, and have no room to lean further. By eye. With half the
+/// value, and with twice, no test is red.
 const LEANS: f64 = 0.1;
+
+/// The leg of an arch. By eye.
+const ARCH_LEG: Node = Node { up: 0.4, ..LEG };
+
+/// The share of the lift over crossing legs that the lower and the upper end of a leg have. By eye.
+const LIFTED_ENDS: f64 = 0.6;
+
+/// The lower and the upper node of a leg that changes sides: their distance from the needle, in
+/// wales, and their height and depth. By eye.
+const CHANGES_SIDES: [(f64, Node); 2] = [(0.2, Node { up: 0.42, z: 0.6 }), (0.3, Node { up: 0.58, z: 0.6 })];
 
 /// Nodes of a dropped loop. The loop falls in front of the loop that it is drawn through, below the
 /// feet of the next course. A dropped arch has none of these nodes, and lies as a float does. By
@@ -50,11 +60,11 @@ const FALLEN_SHOULDER: Node = Node { up: 0.5, ..LEG };
 const FALLEN_HEAD: Node = Node { up: 0.54, z: 0.8 };
 
 /// Distance of the feet of a layer from the middle between two layers that lie face to face, in
-/// diameters. By eye. Twice as much breaks `interlock_is_twice_as_thick_as_jersey`; half as much
-/// breaks no test.
+/// diameters. By eye. With twice the value, `interlock_is_twice_as_thick_as_jersey` is red; with
+/// half, no test is.
 const APART: f64 = 0.55;
-/// [`APART`] in a cloth whose yarns float between the layers. By eye. Half as much breaks
-/// `knits_come_to_rest`; twice as much breaks no test.
+/// [`APART`] in a cloth whose yarns float between the layers. By eye. With half the value,
+/// `knits_come_to_rest` is red; with twice, no test is.
 const FLOATS_APART: f64 = 1.0;
 
 /// Sign of z on the side to which loops of a bed are drawn: 1 for the face, -1 for the back.
@@ -275,15 +285,15 @@ impl<'a> Form<'a> {
             if self.is_dropped {
                 return points;
             }
-            let leg = Node { up: 0.4, ..LEG };
-            points.push(at(LEG_WIDE * wale, 0.0, self.height(leg), self.z(upper, leg) + self.over));
+            let z = self.z(upper, ARCH_LEG) + self.over;
+            points.push(at(LEG_WIDE * wale, 0.0, self.height(ARCH_LEG), z));
         } else {
             points.push(at(FOOT_WIDE * wale, 0.0, self.height(FOOT) + self.lift, foot_z));
             // The leg comes out between the shoulders of the loop below, and in front of them. It
             // can lean only further up.
             let leans = LEANS * self.lean.clamp(-wale, wale);
             let over = lower.side * f64::max(lower.side * self.over, 0.0);
-            let z = self.z(lower, LOWER) + forward + 0.6 * over;
+            let z = self.z(lower, LOWER) + forward + LIFTED_ENDS * over;
             points.push(DVec3::new(self.x + hand * narrow + leans, self.height(LOWER), z));
             if self.is_dropped {
                 for (node, across) in [(FALLEN_LEG, LEG_WIDE), (FALLEN_SHOULDER, SHOULDER_WIDE)] {
@@ -300,8 +310,8 @@ impl<'a> Form<'a> {
                 points.push(at(LEG_WIDE * wale, 0.5, self.height(LEG), z + self.over));
             } else {
                 // The leg crosses the plane of the cloth between the loop below and the loop above.
-                for (half, across, up, forward) in [(lower, 0.2, 0.42, forward), (upper, 0.3, 0.58, 0.0)] {
-                    let node = Node { up, z: 0.6 };
+                let halves = [(lower, forward), (upper, 0.0)];
+                for ((half, forward), (across, node)) in halves.into_iter().zip(CHANGES_SIDES) {
                     let z = self.z(half, node) + forward + self.over;
                     points.push(at(across * wale, 0.5, self.height(node), z));
                 }
@@ -312,7 +322,8 @@ impl<'a> Form<'a> {
         }
         let up = f64::from(self.held) * course;
         let high = |node| self.height(node) + up;
-        points.push(at(0.5 * wale - narrow, 1.0, high(UPPER), self.z(upper, UPPER) + 0.6 * self.over));
+        let z = self.z(upper, UPPER) + LIFTED_ENDS * self.over;
+        points.push(at(0.5 * wale - narrow, 1.0, high(UPPER), z));
         points.push(at(SHOULDER_WIDE * wale, 1.0, high(SHOULDER), self.z(upper, SHOULDER)));
         points
     }

@@ -10,7 +10,7 @@ use super::stitches::HALVES;
 use super::{Bed, Fate, Head, Step, Stitch, Stitches, Visit};
 
 /// Distance in wales above which two loops have needles between them. Places are whole and half
-/// wales, so that this distance separates 1.5 from 2. Half as much and twice as much break no test.
+/// wales, so that this distance separates 1.5 from 2.
 pub(super) const STEP: f32 = 1.6;
 
 /// The loops on the needle of one bed in one course.

@@ -21,24 +21,24 @@ use super::shape::{ARC, Shape};
 use super::{Cells, Fate, Stitches};
 
 /// Distance between yarns that share a course where they cross, in diameters, if the course has
-/// enough room. At this distance they just touch. Twice as much breaks
-/// `interlock_is_twice_as_thick_as_jersey`; half as much breaks no test.
+/// enough room. At this distance they just touch. With twice the value,
+/// `interlock_is_twice_as_thick_as_jersey` is red; with half, no test is.
 const CROSSING: f64 = 1.0;
 
-/// Share of a course's height that yarns which share the course may take. By eye. Half as much and
-/// twice as much break no test.
+/// Share of a course's height that yarns which share the course may take. By eye. With half the
+/// value, and with twice, no test is red.
 const ROOM: f64 = 0.75;
 
 /// Distance by which the end of a yarn goes behind loops that hang beside it, in diameters. By eye.
-/// Half as much and twice as much break no test.
+/// With half the value, and with twice, no test is red.
 const END_BEHIND: f64 = 1.3;
 
-/// Distance by which a yarn goes out beyond its arc where it turns, in wales. By eye. Half as much
-/// and twice as much break no test.
+/// Distance by which a yarn goes out beyond its arc where it turns, in wales. By eye. With half the
+/// value, and with twice, no test is red.
 const TURN: f64 = 0.3;
 /// Distance by which the yarn of each carrier goes out further than that of the carrier before, in
-/// diameters, so that turns of several yarns lie beside one another. By eye. Half as much and twice
-/// as much break no test.
+/// diameters, so that turns of several yarns lie beside one another. By eye. With half the value,
+/// and with twice, no test is red.
 const NEXT_TURN: f64 = 1.1;
 
 /// A cloth whose yarns are to be laid.

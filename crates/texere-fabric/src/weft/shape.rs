@@ -30,8 +30,8 @@ const SAMPLES: usize = 16;
 /// Range in which [`Shape::new`] seeks the depth, in yarn diameters, and number of times that it
 /// halves the range. A search by another program gave 0.64 to 0.70
 /// (`loops_are_as_deep_as_they_must_be`). Ten halvings leave 0.0004 diameters; 5 pass that test, 3
-/// do not. Half of each and twice each break
-/// `jersey_has_the_loop_length_and_thickness_of_the_books`.
+/// do not. With half the values, and with twice,
+/// `jersey_has_the_loop_length_and_thickness_of_the_books` is red.
 const DEPTHS: [f64; 2] = [0.5, 0.9];
 const HALVINGS: usize = 10;
 

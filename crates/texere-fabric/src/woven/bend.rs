@@ -7,14 +7,14 @@ use super::shape::{Set, Shape};
 /// Distance of a shoulder from its crossing, as a multiple of half the width of the crossed thread
 /// plus half the height of the thread itself. A shoulder is the control point beside a crossing of
 /// a thread that changes sides. [`SHOULDER_MOST`] makes the distance smaller if the next crossing
-/// is near, and [`STRIDE`] makes the distance larger if the next crossing is far. Half as much
-/// breaks `the_search_for_cures_stops_when_it_is_asked_to`, and twice as much
+/// is near, and [`STRIDE`] makes the distance larger if the next crossing is far. With half the
+/// value, `the_search_for_cures_stops_when_it_is_asked_to` is red; with twice,
 /// `straight_ends_have_no_crimp_and_the_weft_has_it_all`.
 const SHOULDER: f32 = 0.7;
 
 /// The largest distance of a shoulder, as a share of the way to the next crossing. It was found in
-/// the trials that [`FALL`] describes. Half as much and twice as much break
-/// `the_search_for_cures_stops_when_it_is_asked_to`.
+/// the trials that [`FALL`] describes. With half the value, and with twice,
+/// `the_search_for_cures_stops_when_it_is_asked_to` is red.
 const SHOULDER_MOST: f32 = 0.32;
 
 /// The largest fall of a shoulder below the crossing, as a multiple of the distance between the two
@@ -32,28 +32,29 @@ const SHOULDER_MOST: f32 = 0.32;
 const FALL: f32 = 0.155;
 
 /// The largest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
-/// Half as much breaks `round_threads_alike_stay_clear_from_the_least_pitch_on`, and twice as much
-/// `threads_that_are_cut_off_close_to_their_last_crossing_stay_clear`.
+/// With half the value, `round_threads_alike_stay_clear_from_the_least_pitch_on` is red; with
+/// twice, `threads_that_are_cut_off_close_to_their_last_crossing_stay_clear`.
 const FALL_OF_CIRCLE: f32 = 0.75;
 
 /// The steepest slope that a shoulder may give a thread at a crossing between a float and a change
 /// of sides. Two threads that both slope come nearer to one another beside the crossing. A slope of
-/// s takes a share of about s²/2 from their distance. Half as much breaks
-/// `a_fold_is_reported_with_its_place`, and twice as much `doubled_ends_and_picks_just_touch`.
+/// s takes a share of about s²/2 from their distance. With half the value,
+/// `a_fold_is_reported_with_its_place` is red; with twice, `doubled_ends_and_picks_just_touch`.
 const TILT: f32 = 0.06;
 
 /// The largest fall of a thread from the edge thread to the place where it leaves the cloth, as a
 /// multiple of the distance between the two centrelines at the edge thread. With a larger fall the
 /// thread tilts at the crossing with the edge thread, if its shoulder towards a distant neighbour
-/// lies low. Half as much and twice as much break `threads_of_all_sizes_and_spacings_stay_clear`.
+/// lies low. With half the value, and with twice, `threads_of_all_sizes_and_spacings_stay_clear` is
+/// red.
 const FALL_OUT: f32 = 0.2;
 
 /// The longest step to the next control point, as a multiple of the step before.
 ///
 /// The spline's parameter runs from 0 to 1 in every interval, long or short. After a long interval
 /// the spline enters a short one at a high speed, and bends sharply where it slows down. If an
-/// interval is five times as long as the next one, or longer, the spline turns back. Half as much
-/// and twice as much break `a_long_float_beside_a_close_pitch_is_stepped_through`.
+/// interval is five times as long as the next one, or longer, the spline turns back. With half the
+/// value, and with twice, `a_long_float_beside_a_close_pitch_is_stepped_through` is red.
 pub(super) const STRIDE: f32 = 3.34;
 
 /// The share by which a length must differ from a stride to count as another length. A shoulder may

@@ -8,23 +8,23 @@ use super::{BySet, Drawdown};
 
 /// The numbers of crossing threads, on one side of a crossing, by which two neighbours are compared
 /// there. Sixteen hold a repeat of 8-end satin in each of two layers, and four that of plain weave.
-/// Fewer are needed inside small figures. Twice each breaks `small_figures_are_found`; half of each
-/// breaks no test.
+/// Fewer are needed inside small figures. With twice the values, `small_figures_are_found` is red;
+/// with half, no test is.
 const NEAR: [usize; 3] = [4, 8, 16];
 
 /// The fewest crossing threads that pass between two neighbours, one of which lies above the other.
 /// A single one passes between neighbours of 3/3 twill, and others further on pass the other way.
-/// Half as many and twice as many break `layers_that_change_places_are_found_by_place`.
+/// With half the value, and with twice, `layers_that_change_places_are_found_by_place` is red.
 const PASSING: u32 = 2;
 
 /// The least share of crossings at which both threads lie in one of two layers, in a figured double
-/// cloth. The rest may be single cloth. Half as much breaks
-/// `threads_without_any_order_lie_side_by_side`, and twice as much `small_figures_are_found`.
+/// cloth. The rest may be single cloth. With half the value,
+/// `threads_without_any_order_lie_side_by_side` is red; with twice, `small_figures_are_found`.
 const DOUBLE: f64 = 0.5;
 
 /// The least share of crossings at which a thread lies in another layer than in the cloth as a
 /// whole, if that is a double cloth. Stitches also look like a change, but take less of a cloth.
-/// Half as much and twice as much break no test.
+/// With half the value, and with twice, no test is red.
 const CHANGED: f64 = 0.05;
 
 /// The largest distance, in threads along a thread, at which crossings near a change of layers

@@ -7,18 +7,18 @@ use super::{BySet, Drawdown};
 /// The least ratio of crossing threads at which one of two threads counts as lying above the other.
 /// Of the crossing threads that pass between the two, at least this many must pass below the upper
 /// thread and above the lower one for each one that passes the other way. The others are then
-/// stitches of a double cloth. Half as many and twice as many break
-/// `stuffers_lie_on_levels_and_binders_pass_them`.
+/// stitches of a double cloth. With half the value, and with twice,
+/// `stuffers_lie_on_levels_and_binders_pass_them` is red.
 const STITCHED: u32 = 4;
 
 /// The longest run of neighbouring threads of one level in a cloth of several layers. A longer run
-/// is a stripe: a satin stripe lies higher than the plain weave beside it, but not over it. Half as
-/// many breaks `layers_are_found_in_any_order`; twice as many breaks no test.
+/// is a stripe: a satin stripe lies higher than the plain weave beside it, but not over it. With
+/// half the value, `layers_are_found_in_any_order` is red; with twice, no test is.
 pub(super) const SIDE_BY_SIDE: usize = 4;
 
 /// The least share of pairs of neighbours in which one thread lies above the other, in a cloth of
 /// several layers. In a cloth with three threads of the face to one of the back this share is a
-/// half. Twice as much breaks `layers_are_found_in_any_order`; half as much breaks no test.
+/// half. With twice the value, `layers_are_found_in_any_order` is red; with half, no test is.
 pub(super) const STACKED: f64 = 0.4;
 
 /// The most levels of a set. If neighbours contradict one another, the search for levels would
@@ -27,8 +27,8 @@ const LEVELS_MAX: u8 = 8;
 
 /// The least share of its crossings at which a binder lies on the wrong side for a thread that
 /// keeps its level. A binder between two levels, half of whose crossings are on the face, has a
-/// quarter. More than one in five are no stitches. Twice as much breaks
-/// `stuffers_lie_on_levels_and_binders_pass_them`; half as much breaks no test.
+/// quarter. More than one in five are no stitches. With twice the value,
+/// `stuffers_lie_on_levels_and_binders_pass_them` is red; with half, no test is.
 const BINDS: f64 = 0.2;
 
 /// How two threads of a set lie.

@@ -12,7 +12,7 @@ use crate::own::Own;
 /// A set of at least this many threads is measured as it is. The stretch from a thread's last
 /// crossing to its first crossing in the next repeat then changes its crimp by a share of less than
 /// 1 / `FEW`. A smaller set that has three repeats or fewer is woven with more repeats, which are
-/// measured. Half as many and twice as many break no test.
+/// measured. With half the value, and with twice, no test is red.
 const FEW: usize = 256;
 
 /// Cloth to be measured, with its yarns.

@@ -1,8 +1,8 @@
 //! Threads stay clear at all pitches from the least one on, by the clearance report. Below it they
 //! are reported as jammed, and flattening helps some of them.
 //!
-//! `contacts.rs` compares the report with brute force. `clearance.rs` measures some of these cloths
-//! by brute force.
+//! `contact/contacts.rs` compares the report with brute force. `contact/clearance.rs` measures some
+//! of these cloths by brute force.
 
 use texere_contact::clearance;
 use texere_core::{Section, Settings};

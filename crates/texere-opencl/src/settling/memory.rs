@@ -37,7 +37,7 @@ pub(super) struct Memory {
     pub(super) rows: Buffer,
     /// The measures of the whole pass.
     pub(super) all: Buffer,
-    /// The extent of the chords that each workgroup looks at, of at most [`EXTENT_GROUPS`].
+    /// The extent of each workgroup's chords. There are at most [`EXTENT_GROUPS`] workgroups.
     pub(super) extents: Buffer,
     /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: Buffer,

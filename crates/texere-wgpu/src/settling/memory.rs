@@ -42,7 +42,7 @@ pub(super) struct Memory {
     rows: wgpu::Buffer,
     /// The measures of the whole pass.
     pub(super) all: wgpu::Buffer,
-    /// The extent of the chords that each workgroup looks at, of at most [`EXTENT_GROUPS`].
+    /// The extent of each workgroup's chords. There are at most [`EXTENT_GROUPS`] workgroups.
     pub(super) extents: wgpu::Buffer,
     /// The position of each cell's first chord in `sorted`, and the chords cell by cell.
     pub(super) cells: wgpu::Buffer,

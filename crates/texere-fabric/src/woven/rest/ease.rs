@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// The most rounds in which points are moved to ease bends. Twice as many breaks
-/// `cloths_of_the_mills_come_to_rest`.
+/// The most rounds in which points are moved to ease bends. With twice the value,
+/// `cloths_of_the_mills_come_to_rest` of `at_rest` is red.
 const EASINGS: usize = 40;
 
 /// The step of a point in a round, as a share of its second difference in height.

@@ -7,13 +7,13 @@ use super::stop::{CHANGE_POINTS, Stop};
 
 /// Place of a float's control point beside a change of sides, in steps of as many as the change has
 /// from crossing to crossing. With this point the steps of the spline grow slowly, so that the
-/// spline does not swing out. Half as much breaks
-/// `woven_cloth_at_rest_has_the_same_numbers_small_and_large`, and twice as much
+/// spline does not swing out. With half the value,
+/// `woven_cloth_at_rest_has_the_same_numbers_small_and_large` is red; with twice,
 /// `turns_of_uneven_picks_do_not_touch`.
 const FLOAT_STEP: f64 = 1.8;
 
-/// Number of parts into which each arc, and the straight line between the arcs, is divided. Half as
-/// many and twice as many break `straight_threads_stretch_no_further`.
+/// Number of parts into which each arc, and the straight line between the arcs, is divided. With
+/// half the value, and with twice, `straight_threads_stretch_no_further` is red.
 const PARTS: usize = 8;
 
 /// Number of halvings in the search for a slope.

@@ -11,20 +11,21 @@ use super::certificate::crop;
 use crate::{BySet, Finish, FinishError, Woven};
 
 /// The least crimp that threads may be pulled to. With less they count as straight, and the stretch
-/// is refused. Half as much and twice as much break no test.
+/// is refused. With half the value, and with twice, no test is red.
 const STRAIGHT: f64 = 0.002;
 
 /// The largest difference between the crimp of the pulled threads and the crimp that keeps their
-/// length. Half as much and twice as much break no test.
+/// length. With half the value, and with twice, no test is red.
 const NEAR: f64 = 2e-4;
 
 /// The largest factor by which the ratio of both sets' tautness changes, as a natural logarithm. In
 /// relaxed cloth, where both sets have a tautness of 1, it leads to about 10, the limit of
-/// [`Finish::taut`]. Half as much breaks `threads_keep_their_length`; twice as much breaks no test.
+/// [`Finish::taut`]. With half the value, `threads_keep_their_length` is red; with twice, no test
+/// is.
 const TAUTER: f64 = 4.6;
 
-/// Number of halvings of the range of tautness. Half as many breaks
-/// `stretching_tells_its_progress_and_ends_within_a_pass`.
+/// Number of halvings of the range of tautness. With half the value,
+/// `stretching_tells_its_progress_and_ends_within_a_pass` is red.
 const HALVINGS: u32 = 16;
 /// Number of times in each halving that the cloth's size across the stretch is adjusted.
 const GIVES: u32 = 3;

@@ -24,7 +24,7 @@ pub(super) const TURN_POINTS: usize = WAYS + 3;
 const BENDS: usize = 12;
 
 /// Number of straight ways from point to point beside the bends, on each side. The bends are
-/// smoothed into them. Half as many breaks `turns_do_not_fold`, and twice as many
+/// smoothed into them. With half the value, `turns_do_not_fold` is red; with twice,
 /// `turns_of_uneven_picks_do_not_touch`.
 const BESIDE: usize = 2;
 

@@ -49,7 +49,7 @@ pub(super) struct Curves<'a> {
     pub(super) widths: Values<'a, f32>,
     /// `primvars:widths`. It replaces `widths` unless it is empty.
     pub(super) primvar_widths: Values<'a, f32>,
-    /// `primvars:yarn`: the number of each curve's yarn. Only texere writes it.
+    /// `primvars:yarn`: the number of each curve's yarn, in files that texere wrote.
     pub(super) yarns: Vec<u32>,
     /// Colours in linear light.
     pub(super) colors: Values<'a, [f32; 3]>,
@@ -83,8 +83,8 @@ struct Said<'a> {
     is_off: bool,
 }
 
-/// The fields that compose a stage from other files or from variants. A stage with one of them is
-/// refused.
+/// The fields that compose a stage from other files or from variants. A stage in which
+/// one of them is not empty is refused.
 const COMPOSED: [&str; 6] = ["subLayers", "references", "payload", "inherits", "specializes", "variants"];
 
 /// The words before a property's type.

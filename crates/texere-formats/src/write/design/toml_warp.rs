@@ -16,7 +16,8 @@ pub(super) fn warp_table(
     knit: &WarpKnitted,
     left_out: &mut Vec<String>,
 ) -> Result<(String, Yarns), WriteError> {
-    // No yarn has a name whose last word is `out`: in a threading, `out` is a guide without yarn.
+    // A yarn whose name ends in the word `out` gets another name: in a threading, `out` is a guide
+    // without yarn.
     let is_yarn = |name: &str| name.split_whitespace().next_back() != Some(GUIDE_WITHOUT_YARN);
     let yarns = Yarns::of_knit(knit.guide_yarns(), knit.materials(), knit.sections(), is_yarn)?;
     let [wales, courses] = knit.lapped_size();

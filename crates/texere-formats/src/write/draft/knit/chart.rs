@@ -18,7 +18,8 @@ use crate::write::{Output, WriteError};
 /// loops are hard to tell apart.
 const NEEDLES_MAX: usize = 100;
 
-/// The most squares of a chart: 8,192 by 8,192, more wales and courses than machines knit.
+/// The most squares of a chart, as many as 8,192 wales and courses have. Large Jacquards have
+/// fewer.
 const SQUARES_MAX: usize = 1 << 26;
 
 /// The smallest square with a symbol in it, pixels. By eye.
@@ -32,8 +33,9 @@ const NONE: Rgb = [205, 205, 205];
 const DARK: u32 = 300;
 
 /// Draws a knit's stitch chart to a PNG file: one repeat, or the whole piece if the knit has no
-/// repeat. The needle diagram stands below the chart if `side` is the face and the knit has at
-/// most 100 wales and 100 passes of carriers. Returns the picture's width and height in pixels.
+/// repeat. The needle diagram stands below the chart if `side` is the face, and what the chart
+/// shows has at most 100 wales and 100 passes of carriers. Returns the picture's width and height
+/// in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
 /// [`WriteError::ChartTooLarge`], [`WriteError::Spared`], [`WriteError::Io`].

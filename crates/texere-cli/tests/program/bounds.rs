@@ -28,8 +28,8 @@ fn within_in(folder: &Path, kilobytes: u32, command: &str, design: &str) -> Outp
         .args(["-c", &format!("ulimit -v {kilobytes}; exec \"$0\" {command} \"$1\"")])
         .args([env!("CARGO_BIN_EXE_texere"), path.to_str().unwrap()])
         .env("RAYON_NUM_THREADS", "1")
-        // One arena of the C library, because each reserves up to 128 MiB, and threads take a new one
-        // when another allocates at that moment.
+        // One arena of the C library, because each reserves up to 128 MiB, and a thread takes a new
+        // one while another allocates.
         .env("MALLOC_ARENA_MAX", "1")
         .output()
         .unwrap()

@@ -31,7 +31,7 @@ fn cloths() -> impl Strategy<Value = Woven> {
 }
 
 /// Positions of threads by the definition: in the middle of their columns, which lie side by side.
-fn places(threads: &[Thread]) -> Vec<f64> {
+pub(crate) fn places(threads: &[Thread]) -> Vec<f64> {
     (0..threads.len())
         .map(|own| {
             threads[..own].iter().map(|thread| thread.spacing_mm).sum::<f64>() + threads[own].spacing_mm / 2.0

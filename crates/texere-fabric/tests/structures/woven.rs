@@ -6,6 +6,8 @@ use texere_fabric::{
     Drawdown, FabricError, FabricWarning, NO_CROSSING, Shape, Thread, ThreadError, Weave, Woven, WovenError,
 };
 
+use crate::shape::places;
+
 fn woven(drawdown: Drawdown, warp: Vec<Thread>, weft: Vec<Thread>) -> Result<Woven, FabricError> {
     let sections = vec![Section::Circle, Section::Ellipse { aspect: 2.0 }];
     Woven::new(drawdown, warp, weft, vec![Material::default(); 2], sections)
@@ -34,15 +36,6 @@ fn cloths() -> impl Strategy<Value = Woven> {
             cloth
         })
     })
-}
-
-/// Positions of threads by the definition: in the middle of their columns, which lie side by side.
-fn places(threads: &[Thread]) -> Vec<f64> {
-    (0..threads.len())
-        .map(|own| {
-            threads[..own].iter().map(|thread| thread.spacing_mm).sum::<f64>() + threads[own].spacing_mm / 2.0
-        })
-        .collect()
 }
 
 /// The control points of `yarn` that come from crossing `number`.

@@ -31,7 +31,7 @@ pub(crate) struct Cloth {
     pub(crate) rays: usize,
 }
 
-/// Cloths that together have every case that a picker treats differently. They get 25,000 rays in
+/// Cloths that together have every case that a picker treats differently. They get 100,000 rays in
 /// all.
 pub(crate) fn clothes() -> Vec<Cloth> {
     let capped = Settings { caps: true, ..Settings::default() };
@@ -47,23 +47,23 @@ pub(crate) fn clothes() -> Vec<Cloth> {
     let bare = Settings { subdivisions: 0, ..capped };
     let cloth = |name, yarns, settings, rays| Cloth { name, yarns, settings, rays };
     vec![
-        cloth("woven", denim, Settings { caps: false, ..bare }, 3_000),
-        cloth("twisted", twisted(), Settings { sides: 5, subdivisions: 2, ..turning }, 5_000),
-        cloth("weft knit", jersey, bare, 800),
-        cloth("warp knit", jacquard, Settings { subdivisions: 0, ..turning }, 800),
-        cloth("all shapes", cases::mixed(), Settings { subdivisions: 0, ..turning }, 3_000),
+        cloth("woven", denim, Settings { caps: false, ..bare }, 12_000),
+        cloth("twisted", twisted(), Settings { sides: 5, subdivisions: 2, ..turning }, 20_000),
+        cloth("weft knit", jersey, bare, 3_000),
+        cloth("warp knit", jacquard, Settings { subdivisions: 0, ..turning }, 3_000),
+        cloth("all shapes", cases::mixed(), Settings { subdivisions: 0, ..turning }, 12_000),
         cloth(
             "closed",
             cases::winding(150, closed).with_tension(0.4).unwrap(),
             Settings { subdivisions: 5, ..turning },
-            6_500,
+            26_000,
         ),
-        cloth("long", cases::winding(1_000, Yarn { twist: 2.0, ..Yarn::default() }), turning, 2_000),
+        cloth("long", cases::winding(1_000, Yarn { twist: 2.0, ..Yarn::default() }), turning, 8_000),
         cloth(
             "round",
             cases::winding(500, Yarn::default()),
             Settings { subdivisions: 3, sides: 4, ..capped },
-            4_000,
+            16_000,
         ),
     ]
 }

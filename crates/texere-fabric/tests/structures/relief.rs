@@ -5,6 +5,8 @@ use texere_fabric::{
     BySet, Crimp, FabricError, Relief, Shape, Thread, ThreadError, Weave, Woven, WovenDesign, WovenError,
 };
 
+use crate::oracle::{pierce, round_clearance};
+
 const UNCHANGED: BySet<f32> = BySet { warp: 1.0, weft: 1.0 };
 
 fn cloth(weave: &str, [end, pick]: [Thread; 2], section: Section) -> Woven {
@@ -65,7 +67,7 @@ fn crimp_goes_where_the_cloth_is_dense() {
     assert_eq!(report.after.map(|set| set.jammed).into_array(), [0, 0]);
     assert!(report.warp_share[1] > 0.6 && report.widened == UNCHANGED && report.scaled == 1.0, "{report:?}");
     assert_eq!((cloth.warp(), cloth.weft(), cloth.warnings().len()), (threads.warp(), threads.weft(), 0));
-    assert!(crate::oracle::round_clearance(&cloth.yarns().unwrap(), 32) > 0.99);
+    assert!(round_clearance(&cloth.yarns().unwrap(), 32) > 0.99);
 }
 
 #[test]
@@ -84,7 +86,7 @@ fn flattening_keeps_the_area_and_clears_the_surfaces() {
     assert!((half_width * half_height - 0.01).abs() < 1e-6);
     assert_eq!(cloth.sections(), [Section::Circle]);
     assert_eq!((cloth.warnings().len(), cloth.weft()[0].radius_mm), (0, 0.1));
-    assert!(!crate::oracle::pierce(&cloth.yarns().unwrap(), 8, 24, 0.985));
+    assert!(!pierce(&cloth.yarns().unwrap(), 8, 24, 0.985));
 }
 
 #[test]
@@ -116,7 +118,7 @@ fn shrinking_makes_everything_fit() {
         assert_eq!(report.after.map(|set| set.jammed).into_array(), [0, 0], "{ends}, {picks}");
         assert!(report.scaled < 1.0 && cloth.warnings().is_empty(), "{report:?}");
         assert!((cloth.warp()[3].radius_mm / 0.1 - report.scaled).abs() < 1e-6);
-        let clearance = crate::oracle::round_clearance(&cloth.yarns().unwrap(), 32);
+        let clearance = round_clearance(&cloth.yarns().unwrap(), 32);
         assert!((0.99..1.1).contains(&clearance), "{ends}, {picks}: {clearance}");
         // A second relief changes nothing.
         assert_eq!(cloth.relieve(Relief::Shrink).unwrap().scaled, 1.0);

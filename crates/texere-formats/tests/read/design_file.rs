@@ -6,6 +6,8 @@ use texere_core::settling::Length;
 use texere_fabric::{BySet, Crimp, Finish, JamReport, RestBy, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
+use crate::read_file;
+
 const DENIM: &str = r##"name = "Denim"
 [weave]
 notation = "3/1"
@@ -27,10 +29,7 @@ spacing_mm = 1.25
 "##;
 
 fn read_text(text: &str) -> Result<Design, ReadError> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("design.toml");
-    std::fs::write(&path, text).unwrap();
-    read(&path)
+    read_file("design.toml", text)
 }
 
 fn cloth(text: &str) -> Woven {

@@ -1,12 +1,13 @@
 //! Designs from memory equal designs from files, with all the files that they name.
 
 use std::cell::RefCell;
-use std::error::Error;
 use std::io::{self, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use texere_formats::{Design, ReadError, read, read_from};
+
+use crate::chain;
 
 const YARN: &str = "[yarns.a]\ndiameter_mm = 0.2\n";
 const SETS: &str = "[warp]\nyarns = [\"a\"]\nspacing_mm = 0.6\n[weft]\nyarns = [\"a\"]\nspacing_mm = 0.6\n";
@@ -101,11 +102,6 @@ fn known(design: &Design) -> String {
         "{name} {structure:?} {settle} {finish:?} {stretch:?} {yarns:?} {places:?} {faults:?} {:?}",
         design.warnings()
     )
-}
-
-fn chain(error: &dyn Error) -> String {
-    let cause = error.source().map(|cause| format!(": {}", chain(cause)));
-    format!("{error}{}", cause.unwrap_or_default())
 }
 
 fn not_found(_: &Path) -> io::Result<Vec<u8>> {

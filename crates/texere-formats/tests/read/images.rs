@@ -12,7 +12,8 @@ use tiff::encoder::colortype::{Gray8, RGB8};
 /// Five ends by six picks as an image viewer shows them, with `#` dark.
 const SHOWN: [&str; 6] = ["#....", "##..#", "###..", ".###.", "..#.#", "#..#."];
 
-fn design(name: &str, bytes: &[u8], weave: &str) -> Result<Design, ReadError> {
+/// Cloth woven as the image `name` with these bytes. `weave` has more keys of its weave.
+pub(crate) fn design(name: &str, bytes: &[u8], weave: &str) -> Result<Design, ReadError> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), bytes).unwrap();
     let path = folder.path().join("design.toml");

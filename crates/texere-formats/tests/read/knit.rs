@@ -1,12 +1,13 @@
 //! The `[knit]` table of design files, and knitout files as designs.
 
-use std::error::Error;
 use std::path::Path;
 
 use image::{Rgb, RgbImage};
 use tempfile::TempDir;
 use texere_fabric::weft::{Knitted, LoopKind};
 use texere_formats::{Design, ReadError, read};
+
+use crate::chain;
 
 const YARNS: &str = "[yarns.red]\ndiameter_mm = 0.2\ncolor = \"#c81020\"\n[yarns.white]\ntex = 20\n";
 
@@ -27,11 +28,6 @@ fn knitted(design: &Design) -> &Knitted {
 /// The message of a refusal, with its causes.
 fn refusal(text: &str) -> String {
     chain(&knit(text).unwrap_err())
-}
-
-fn chain(error: &dyn Error) -> String {
-    let cause = error.source().map(|cause| format!(": {}", chain(cause)));
-    format!("{error}{}", cause.unwrap_or_default())
 }
 
 const CLOSE: &str = "wales_per_cm = 10\ncourses_per_cm = 12.5\n";

@@ -17,3 +17,21 @@ mod texgen;
 mod usd;
 mod warp_knit;
 mod wif;
+
+use std::error::Error;
+
+use texere_formats::{Design, ReadError, read};
+
+/// Reads a file of this name and these contents, alone in a folder.
+fn read_file(name: &str, contents: impl AsRef<[u8]>) -> Result<Design, ReadError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, contents).unwrap();
+    read(&path)
+}
+
+/// The message of an error and of all its causes.
+fn chain(error: &dyn Error) -> String {
+    let cause = error.source().map(|cause| format!(": {}", chain(cause)));
+    format!("{error}{}", cause.unwrap_or_default())
+}

@@ -4,28 +4,16 @@
 use std::error::Error;
 use std::io::Write;
 
-use texere_formats::{Design, ReadError, read};
+use crate::images::design;
 
 /// Number of columns and of rows. A row has more pixels than a byte holds, and does not fill whole
 /// bytes.
 const SIZE: [usize; 2] = [11, 9];
 
-fn design(name: &str, bytes: &[u8]) -> Result<Design, ReadError> {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join(name), bytes).unwrap();
-    let path = folder.path().join("design.toml");
-    let text = format!(
-        "[weave]\nimage = \"{name}\"\n[yarns.a]\ndiameter_mm = 0.3\n[warp]\nyarns = [\"a\"]\nspacing_mm = 1\n\
-         [weft]\nyarns = [\"a\"]\nspacing_mm = 1\n"
-    );
-    std::fs::write(&path, text).unwrap();
-    read(&path)
-}
-
 /// Checks that the warp is up where pixels are dark.
 #[track_caller]
 fn shows(name: &str, bytes: &[u8], is_dark: impl Fn(usize, usize) -> bool) {
-    let design = design(name, bytes).unwrap();
+    let design = design(name, bytes, "").unwrap();
     let drawdown = design.structure.woven().unwrap().cloth().drawdown();
     assert_eq!([drawdown.ends(), drawdown.picks()], SIZE);
     for row in 0..SIZE[1] {
@@ -38,7 +26,7 @@ fn shows(name: &str, bytes: &[u8], is_dark: impl Fn(usize, usize) -> bool) {
 
 #[track_caller]
 fn refuses(name: &str, bytes: &[u8], number: usize, colors: &str) {
-    let error = design(name, bytes).expect_err("it is taken");
+    let error = design(name, bytes, "").expect_err("it is taken");
     let error = error.innermost();
     let told = format!("{error}: {}", error.source().map(ToString::to_string).unwrap_or_default());
     let why = format!("number {number} of a palette of {colors}");

@@ -6,6 +6,8 @@ use texere_cpu::ParallelBackend;
 use texere_fabric::{FabricError, FinishError, Finished, RestBy};
 use texere_formats::{Design, Refusal, RestReport, read};
 
+use crate::read_file;
+
 const CLOTH: &str = "weave = { notation = \"2/1\", ends = 9, picks = 9 }\nyarns.white.diameter_mm = 0.14\n\
     warp = { yarns = [\"white\"], spacing_mm = 0.25 }\nweft = { yarns = [\"white\"], spacing_mm = 0.35 }\n";
 const JERSEY: &str =
@@ -14,10 +16,7 @@ const TRICOT: &str = "yarns.white.diameter_mm = 0.1\n[warp_knit]\nwales = 2\ncou
     courses_per_cm = 13.333\n[[warp_knit.bars]]\nlapping = \"tricot\"\n";
 
 fn design(text: &str) -> Design {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("design.toml");
-    std::fs::write(&path, text).unwrap();
-    read(&path).unwrap()
+    read_file("design.toml", text).unwrap()
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! The `[warp_knit]` table of design files.
 
-use std::error::Error;
 use std::path::Path;
 
 use image::{Rgb, RgbImage};
@@ -8,6 +7,8 @@ use tempfile::TempDir;
 use texere_fabric::warp::WarpKnitted;
 use texere_formats::write::{Side, warp_draft, warp_rows};
 use texere_formats::{Design, ReadError, read};
+
+use crate::chain;
 
 const YARNS: &str = "[yarns.red]\ndiameter_mm = 0.1\n[yarns.white]\ndiameter_mm = 0.08\n";
 const SIZE: &str = "wales = 6\ncourses = 4\nwales_per_cm = 10\ncourses_per_cm = 12.5\n";
@@ -24,11 +25,6 @@ fn design(bars: &str) -> Result<Design, ReadError> {
 
 fn knit(design: &Design) -> &WarpKnitted {
     design.structure.warp_knitted().unwrap()
-}
-
-fn chain(error: &dyn Error) -> String {
-    let cause = error.source().map(|cause| format!(": {}", chain(cause)));
-    format!("{error}{}", cause.unwrap_or_default())
 }
 
 #[test]

@@ -6,6 +6,8 @@ use texere_core::{Origin, Settings};
 use texere_fabric::Woven;
 use texere_formats::{Design, ReadError, read};
 
+use crate::read_file;
+
 /// A straight 2/2 twill on four shafts, five ends by four picks, in centimetres.
 const TWILL: &str = "[WIF]\nVersion=1.1\n[WEAVING]\nShafts=4\nTreadles=4\nRising Shed=true\n\
     [WARP]\nThreads=5\nUnits=Centimeters\nSpacing=0.2\nThickness=0.1\nColor=1\n\
@@ -21,10 +23,7 @@ const LIFT_PLAN: &str = "[LIFTPLAN]\n1=1,2\n2=2,3\n3=3,4\n4=4,1\n";
 const TWILL_DRAWDOWN: &str = "10011\n00110\n01100\n11001\n";
 
 fn read_text(text: impl AsRef<[u8]>) -> Result<Design, ReadError> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("draft.wif");
-    std::fs::write(&path, text).unwrap();
-    read(&path)
+    read_file("draft.wif", text)
 }
 
 fn cloth(text: &str) -> Woven {

@@ -152,7 +152,7 @@ fn memory_that_is_refused_is_a_failure_of_the_machine() {
         "[knit]\nchart = \"\"\"\n{rows}\"\"\"\nwales_per_cm = 8\ncourses_per_cm = 10\n[yarns.a]\ndiameter_mm = 0.1\n"
     );
     let mut refused = 0;
-    for kilobytes in (60_000..300_000).step_by(24_000) {
+    for kilobytes in (60_000..300_000).step_by(12_000) {
         let output = within(kilobytes, "inspect --counts", &tall);
         let error = stderr(&output);
         match output.status.code() {

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use texere_conformance::cases::{self, Case};
 use texere_conformance::near_devices;
 use texere_conformance::oracle::Oracle;
@@ -111,14 +112,13 @@ fn check(
 fn attributes_agree_with_the_oracle_on_every_backend_and_however_it_is_cut() {
     let serial = SerialBackend::new();
     let exact = ParallelBackend::each();
-    let (cases, mut cut) = (small(), 0);
-    for case in &cases {
+    let cases = small();
+    let in_chunks = |case: &Case| {
         let (yarns, settings) = (case.yarns(), case.settings);
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings).unwrap());
         let (oracle, lengths) = (Oracle::new(&yarns, &settings), lengths(&yarns, &settings));
         let limits = case.tight.limits(&plan, 1);
         let chunks: Vec<_> = plan.chunks(&limits).unwrap().collect();
-        cut += usize::from(chunks.len() > 1);
         let reference = made(&serial, &plan, &yarns, &chunks);
         check(&case.name, &plan, &chunks, &reference, &oracle, &lengths);
         for device in &exact {
@@ -135,7 +135,9 @@ fn attributes_agree_with_the_oracle_on_every_backend_and_however_it_is_cut() {
             let chunks: Vec<_> = plan.chunks(&limits).unwrap().collect();
             check(&name, &plan, &chunks, &made(&**device, &plan, &yarns, &chunks), &oracle, &lengths);
         }
-    }
+        chunks.len() > 1
+    };
+    let cut = cases.par_iter().filter(|case| in_chunks(case)).count();
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 

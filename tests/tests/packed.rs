@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use proptest::prelude::*;
+use rayon::prelude::*;
 use texere_conformance::cases::{self, Case};
 use texere_conformance::{check_packed, near_devices};
 use texere_core::backend::{Plan, Schedule, Session, SessionError};
@@ -36,13 +37,11 @@ fn quantum(yarns: &Yarns) -> Quantum {
 fn packed_vertices_are_the_meshs_on_every_backend_and_however_it_is_cut() {
     let serial = SerialBackend::new();
     let cases = small();
-    let mut cut = 0;
-    for case in &cases {
+    let in_chunks = |case: &Case| {
         let yarns = case.yarns();
         let settings = Settings { quantum: quantum(&yarns), ..case.settings };
         let plan = Plan::new(yarns.layout().clone(), settings).unwrap();
         let limits = case.tight.limits(&plan, 1);
-        cut += usize::from(plan.chunks(&limits).unwrap().nth(1).is_some());
         let check = |device: &dyn Backend, exact| {
             check_packed(&yarns, settings, &limits, device, exact)
                 .unwrap_or_else(|error| panic!("{} on {}: {error}", case.name, device.info().name));
@@ -54,7 +53,9 @@ fn packed_vertices_are_the_meshs_on_every_backend_and_however_it_is_cut() {
             assert!(packed(&device) == gold, "{} on {}", case.name, device.info().name);
         }
         near_devices().iter().for_each(|device| check(&**device, false));
-    }
+        plan.chunks(&limits).unwrap().nth(1).is_some()
+    };
+    let cut = cases.par_iter().filter(|case| in_chunks(case)).count();
     assert!(cases.len() > 50 && cut > 10, "{} cases, {cut} of them in several chunks", cases.len());
 }
 

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use texere_conformance::cases::{mixed, winding};
 use texere_conformance::schedule::able_devices;
 use texere_core::backend::{LiveMesh, PaddedPoints, Plan, SessionError};
@@ -110,53 +111,60 @@ fn whole(device: &dyn Backend, yarns: &Yarns, settings: Settings) -> Mesh {
     Pipeline::new(yarns).settings(settings).mesh(device).unwrap()
 }
 
-#[test]
-fn regions_are_parts_of_the_whole_and_lack_nothing() {
+/// Compares all regions of a cloth with the whole. Returns the number of those that are neither
+/// empty nor all of it.
+fn partial_regions(name: &str, yarns: &Yarns, settings: Settings) -> usize {
     let mut partial = 0;
-    for (name, yarns) in fabrics() {
-        for settings in settings() {
-            for device in able_devices(&yarns, &settings) {
-                let name = format!("{name}, {settings:?}: {}", device.info().name);
-                let mesh = whole(&*device, &yarns, settings);
-                let (all, vertices) = named(&mesh);
-                for bounds in boxes(&bounds(&yarns, settings)) {
-                    for limits in [Limits::NONE, Limits { blocks: 4, ..Limits::NONE }] {
-                        let mut progress = Vec::new();
-                        let part = Pipeline::new(&yarns)
-                            .settings(settings)
-                            .limits(limits)
-                            .within(bounds)
-                            .progress(|done| {
-                                progress.push(done);
-                                std::ops::ControlFlow::Continue(())
-                            })
-                            .mesh(&*device)
-                            .unwrap();
-                        let (made, own) = named(&part);
-                        for (corner, bits) in &own {
-                            assert_eq!(vertices[corner], *bits, "{name}: {corner:?}");
-                        }
-                        assert!(made.is_subset(&all), "{name}");
-                        let holds = |corner: &Corner| {
-                            let [x, y, z, ..] = vertices[corner].map(f32::from_bits);
-                            bounds.holds([x, y, z])
-                        };
-                        for triangle in all.difference(&made) {
-                            assert!(!triangle.iter().any(holds), "{name}: {triangle:?} is missing");
-                        }
-                        let counts = part.plan.counts();
-                        assert_eq!(counts.triangles, made.len() as u64, "{name}");
-                        let repeated = part.chunks.iter().filter(|chunk| chunk.repeats_ring()).count() as u64;
-                        let sides = u64::from(settings.sides);
-                        assert_eq!(counts.vertices + repeated * sides, part.vertices.len() as u64, "{name}");
-                        let last = *progress.last().unwrap();
-                        assert_eq!(last, Progress { rings: counts.rings, total: counts.rings }, "{name}");
-                        partial += usize::from(!made.is_empty() && made.len() < all.len());
-                    }
+    for device in able_devices(yarns, &settings) {
+        let name = format!("{name}, {settings:?}: {}", device.info().name);
+        let mesh = whole(&*device, yarns, settings);
+        let (all, vertices) = named(&mesh);
+        for bounds in boxes(&bounds(yarns, settings)) {
+            for limits in [Limits::NONE, Limits { blocks: 4, ..Limits::NONE }] {
+                let mut progress = Vec::new();
+                let part = Pipeline::new(yarns)
+                    .settings(settings)
+                    .limits(limits)
+                    .within(bounds)
+                    .progress(|done| {
+                        progress.push(done);
+                        std::ops::ControlFlow::Continue(())
+                    })
+                    .mesh(&*device)
+                    .unwrap();
+                let (made, own) = named(&part);
+                for (corner, bits) in &own {
+                    assert_eq!(vertices[corner], *bits, "{name}: {corner:?}");
                 }
+                assert!(made.is_subset(&all), "{name}");
+                let holds = |corner: &Corner| {
+                    let [x, y, z, ..] = vertices[corner].map(f32::from_bits);
+                    bounds.holds([x, y, z])
+                };
+                for triangle in all.difference(&made) {
+                    assert!(!triangle.iter().any(holds), "{name}: {triangle:?} is missing");
+                }
+                let counts = part.plan.counts();
+                assert_eq!(counts.triangles, made.len() as u64, "{name}");
+                let repeated = part.chunks.iter().filter(|chunk| chunk.repeats_ring()).count() as u64;
+                let sides = u64::from(settings.sides);
+                assert_eq!(counts.vertices + repeated * sides, part.vertices.len() as u64, "{name}");
+                let last = *progress.last().unwrap();
+                assert_eq!(last, Progress { rings: counts.rings, total: counts.rings }, "{name}");
+                partial += usize::from(!made.is_empty() && made.len() < all.len());
             }
         }
     }
+    partial
+}
+
+#[test]
+fn regions_are_parts_of_the_whole_and_lack_nothing() {
+    let fabrics = fabrics();
+    let regions = fabrics.par_iter().flat_map(|(name, yarns)| {
+        settings().into_par_iter().map(move |settings| partial_regions(name, yarns, settings))
+    });
+    let partial: usize = regions.sum();
     assert!(partial > 100, "{partial} regions were neither empty nor all");
 }
 

@@ -40,9 +40,16 @@ fn main() -> ExitCode {
         Some("check") => {
             check(&mut steps);
             install(&mut steps, "valgrind", &["valgrind"]);
-            instructions::check(&mut steps);
-            demo::demo(&mut steps, Build::Tested);
-            programs(&mut steps, Build::Tested);
+            vulkan::install(&mut steps);
+            install(&mut steps, "compilers", &hosts::PACKAGES);
+            // Counting and most programs keep one core busy.
+            steps.beside(
+                |steps| {
+                    instructions::check(steps);
+                    demo::demo(steps, Build::Tested);
+                },
+                |steps| programs(steps, Build::Tested),
+            );
         }
         Some("hosts") => programs(&mut steps, Build::Released),
         Some("python") => python(&mut steps, Build::Released),

@@ -224,7 +224,10 @@ fn sections_out_of_range() {
         named(Section::Lenticular { aspect: 2.0, distortion }, "distortion");
     }
     for plies in [0, 1, 13, u32::MAX] {
-        named(Section::Lobed { plies }, "plies");
+        named(Section::plied(plies), "plies");
+    }
+    for valley in [0.49, 1.01, 0.0, f32::NAN] {
+        named(Section::Lobed { plies: 2, valley }, "valley");
     }
     for bad in NOT_NUMBERS.into_iter().chain([1e9]) {
         named(Section::Polygon(vec![[0.0, 0.0], [1.0, 0.0], [bad, 1.0]]), "corner");

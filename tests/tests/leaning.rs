@@ -193,7 +193,7 @@ fn by_ring(mesh: &Mesh) -> Vec<Vertex> {
 /// On every device the mesh of turned cloth is the mesh of flat cloth, turned.
 #[test]
 fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
-    let flats = [cloth(Section::Circle, 0.0), cloth(Section::Lobed { plies: 2 }, 1.5)];
+    let flats = [cloth(Section::Circle, 0.0), cloth(Section::plied(2), 1.5)];
     for flat in &flats {
         for frame in [Frame::Upright, Frame::RotationMinimizing] {
             let settings = Settings {
@@ -227,7 +227,7 @@ fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
 
 #[test]
 fn all_cores_make_the_bits_of_one() {
-    for (yarns, closed) in [(saddle(&cloth(Section::Lobed { plies: 3 }, 2.0), 6.0), false), (ring(), true)] {
+    for (yarns, closed) in [(saddle(&cloth(Section::plied(3), 2.0), 6.0), false), (ring(), true)] {
         for frame in [Frame::Upright, Frame::RotationMinimizing] {
             for sides in [6, 7] {
                 let settings =

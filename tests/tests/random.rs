@@ -38,7 +38,8 @@ fn section() -> impl Strategy<Value = Section> {
             .prop_map(|(aspect, distortion)| Section::Lenticular { aspect, distortion }),
         (numbers(0.05, 20.0), numbers(0.1, 4.0))
             .prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
-        (2u32..=12).prop_map(|plies| Section::Lobed { plies }),
+        (2u32..=12).prop_map(Section::plied),
+        (2u32..=12, 0.5f32..=1.0).prop_map(|(plies, valley)| Section::Lobed { plies, valley }),
     ]
 }
 

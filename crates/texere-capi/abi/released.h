@@ -129,7 +129,9 @@
 // section has `aspect`; `form` is 0.1 to 4, and 1 is an ellipse.
 #define TEXERE_SECTION_POWER_ELLIPSE 3
 
-// The outline of `count` round plies twisted together, 2 to 12.
+// The outline of `count` plies twisted together, 2 to 12. `form` is the distance of the valley
+// between two plies from the axis, as a share of the distance to which a ply reaches: 0.5 to 1, or
+// 0 for plies that nothing presses.
 #define TEXERE_SECTION_LOBED 4
 
 // The outline through `corners`: `count` corners, 3 to 256.

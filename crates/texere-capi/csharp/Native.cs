@@ -153,7 +153,9 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_SECTION_POWER_ELLIPSE = 3;
         /// <summary>
-        ///  The outline of `count` round plies twisted together, 2 to 12.
+        ///  The outline of `count` plies twisted together, 2 to 12. `form` is the distance of the valley
+        ///  between two plies from the axis, as a share of the distance to which a ply reaches: 0.5 to 1, or
+        ///  0 for plies that nothing presses.
         /// </summary>
         internal const uint TEXERE_SECTION_LOBED = 4;
         /// <summary>

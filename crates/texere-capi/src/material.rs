@@ -39,7 +39,9 @@ pub const TEXERE_SECTION_LENTICULAR: u32 = 2;
 /// An ellipse whose height at angle a is in proportion to |sin a|^`form` instead of |sin a|. The
 /// section has `aspect`; `form` is 0.1 to 4, and 1 is an ellipse.
 pub const TEXERE_SECTION_POWER_ELLIPSE: u32 = 3;
-/// The outline of `count` round plies twisted together, 2 to 12.
+/// The outline of `count` plies twisted together, 2 to 12. `form` is the distance of the valley
+/// between two plies from the axis, as a share of the distance to which a ply reaches: 0.5 to 1, or
+/// 0 for plies that nothing presses.
 pub const TEXERE_SECTION_LOBED: u32 = 4;
 /// The outline through `corners`: `count` corners, 3 to 256.
 pub const TEXERE_SECTION_POLYGON: u32 = 5;
@@ -152,7 +154,8 @@ impl texere_section {
             TEXERE_SECTION_ELLIPSE => Section::Ellipse { aspect },
             TEXERE_SECTION_LENTICULAR => Section::Lenticular { aspect, distortion: form },
             TEXERE_SECTION_POWER_ELLIPSE => Section::PowerEllipse { aspect, exponent: form },
-            TEXERE_SECTION_LOBED => Section::Lobed { plies: count },
+            TEXERE_SECTION_LOBED if form == 0.0 => Section::plied(count),
+            TEXERE_SECTION_LOBED => Section::Lobed { plies: count, valley: form },
             TEXERE_SECTION_POLYGON => {
                 // SAFETY: the caller vouches for it.
                 let corners: &[[f32; 2]] =

@@ -42,7 +42,7 @@ const TWIST_RINGS_MAX: u64 = 1 << 21;
 /// use texere_core::{ControlPoint, Pipeline, Section, Settings, Undersampled, Yarn, Yarns};
 /// // Two plies, 300 turns a metre, control points 2 mm apart: 216 degrees from one to the next.
 /// let mut yarns = Yarns::builder();
-/// yarns.section(Section::Lobed { plies: 2 });
+/// yarns.section(Section::plied(2));
 /// let twist = 0.3 * std::f32::consts::TAU;
 /// yarns.yarn(Yarn { twist, ..Yarn::default() }, &[0.0, 2.0, 4.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.5)));
 /// let yarns = yarns.build()?;

@@ -125,8 +125,8 @@ impl Yarns {
     /// # let mut yarns = Yarns::builder();
     /// # yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
     /// # let yarns = yarns.build()?;
-    /// let plied = yarns.with_section(Section::Lobed { plies: 2 })?;
-    /// assert_eq!(plied.layout().sections(), [Section::Lobed { plies: 2 }]);
+    /// let plied = yarns.with_section(Section::plied(2))?;
+    /// assert_eq!(plied.layout().sections(), [Section::plied(2)]);
     /// # Ok::<(), texere_core::YarnError>(())
     /// ```
     ///

@@ -75,7 +75,7 @@ fn sections() -> Vec<Section> {
         Section::Ellipse { aspect: 2.0 },
         Section::Lenticular { aspect: 3.0, distortion: 0.2 },
         Section::PowerEllipse { aspect: 1.5, exponent: 0.5 },
-        Section::Lobed { plies: 3 },
+        Section::plied(3),
     ]
 }
 

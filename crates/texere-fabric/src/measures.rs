@@ -215,7 +215,7 @@ impl Cover {
         // section, its mean half width over all directions. A twisted thread shows one side of its
         // section after another.
         let widths: Vec<[f32; 2]> = (0..)
-            .zip(cloth.sections())
+            .zip(yarns.layout().sections())
             .map(|(number, section)| {
                 let twisted = sets.iter().any(|(threads, _)| turns(threads, number));
                 [section.half_width(), if twisted { mean_reach(section) } else { 0.0 }]

@@ -15,15 +15,17 @@ use texere::yarn::{
 /// ``tex`` (g/km) and ``density`` (g/cm³, by default that of a yarn of the fibre). ``twist_per_m``
 /// is turns per metre, above 0 for Z twist. ``color`` is ``"#rrggbb"`` or three numbers from 0 to
 /// 255, sRGB. ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect,
-/// distortion)``, ``("power-ellipse", aspect, exponent)`` or ``("lobed", plies)``. ``flatness``
-/// (width over height in the cloth, 0.1 to 10), ``stiffness`` (0.01 to 100, 1 for cotton) and
-/// ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to 100, 1 for cotton of
-/// ordinary twist; if it is not given, it follows from ``twist_per_m``, where this is given) count
-/// in woven cloth alone, as does ``packing``, the largest share of its section that the fibre of a
-/// squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm², counts in knits that
-/// rest by their energy; if it is not given, it follows from ``fibre`` and ``tex``. ``fibre`` is
-/// ``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``, ``"viscose"`` or
-/// ``"wool"``. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show it.
+/// distortion)``, ``("power-ellipse", aspect, exponent)``, ``("lobed", plies)`` or ``("lobed",
+/// plies, valley)``, where the valley between two plies lies 0.5 to 1 times as far from the axis as
+/// a ply reaches. ``flatness`` (width over height in the cloth, 0.1 to 10), ``stiffness`` (0.01 to
+/// 100, 1 for cotton) and ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to
+/// 100, 1 for cotton of ordinary twist; if it is not given, it follows from ``twist_per_m``, where
+/// this is given) count in woven cloth alone, as does ``packing``, the largest share of its section
+/// that the fibre of a squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm²,
+/// counts in knits that rest by their energy; if it is not given, it follows from ``fibre`` and
+/// ``tex``. ``fibre`` is ``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``,
+/// ``"viscose"`` or ``"wool"``. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show
+/// it.
 ///
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>
@@ -134,7 +136,12 @@ fn section(value: &Bound<'_, PyAny>) -> PyResult<Section> {
     if let Ok((name, plies)) = value.extract::<(String, u32)>()
         && name == "lobed"
     {
-        return Ok(Section::Lobed { plies });
+        return Ok(Section::plied(plies));
+    }
+    if let Ok((name, plies, valley)) = value.extract::<(String, u32, f32)>()
+        && name == "lobed"
+    {
+        return Ok(Section::Lobed { plies, valley });
     }
     if let Ok((name, aspect)) = value.extract::<(String, f32)>()
         && name == "ellipse"
@@ -150,7 +157,7 @@ fn section(value: &Bound<'_, PyAny>) -> PyResult<Section> {
         }
         _ => Err(PyValueError::new_err(format!(
             "section is {}, expected \"circle\", (\"ellipse\", aspect), (\"lenticular\", aspect, distortion), \
-             (\"power-ellipse\", aspect, exponent) or (\"lobed\", plies)",
+             (\"power-ellipse\", aspect, exponent), (\"lobed\", plies) or (\"lobed\", plies, valley)",
             value.repr()?
         ))),
     }

@@ -67,6 +67,8 @@ CALLS = {
     "a section without aspect": lambda: texere.Yarn(diameter_mm=1, section="ellipse"),
     "a section of aspect 0": lambda: texere.Yarn(diameter_mm=1, section=("ellipse", 0)),
     "a section of NaN": lambda: texere.Yarn(diameter_mm=1, section=("lenticular", 1.5, NAN)),
+    "a valley deeper than plies": lambda: texere.Yarn(diameter_mm=1, section=("lobed", 2, 0.25)),
+    "a half ply": lambda: texere.Yarn(diameter_mm=1, section=("lobed", 2.5, 0.75)),
     "a section of four billion plies": lambda: texere.Yarn(diameter_mm=1, section=("lobed", 4_000_000_000)),
     "a twist of NaN": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, twist_per_m=NAN)),
     "a bending stiffness of 0": lambda: woven(warp=texere.Yarn(diameter_mm=0.2, bending_stiffness=0)).placed(),

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use texere_core::backend::{LiveMesh, Plan, SessionError};
-use texere_core::{Backend, Change, ControlPoint, Material, Ray, Settings, Yarn, Yarns};
+use texere_core::{Backend, Change, ControlPoint, Material, Ray, Section, Settings, Yarn, Yarns};
 use texere_cpu::{Hit, Picker};
 use texere_fabric::{Loom, Structure, Woven};
 
@@ -258,6 +258,11 @@ impl Live {
     ///
     /// **Errors**: [`LiveError::Fabric`] and [`LiveError::Yarns`] if the yarns can't be made.
     pub fn yarns(&self) -> Result<Yarns, LiveError> {
+        self.yarns_with(self.mesh.plan().layout().sections())
+    }
+
+    /// All yarns as they are now, with these sections.
+    fn yarns_with(&self, sections: &[Section]) -> Result<Yarns, LiveError> {
         let yarns = match &self.source {
             Source::Loom(loom) => loom.cloth().yarns()?,
             Source::Given(yarns) => yarns.clone(),
@@ -275,7 +280,7 @@ impl Live {
             points.extend_from_slice(own);
             offsets.push(points.len() as u64);
         }
-        let layout = texere_core::Layout::new(table, offsets, yarns.layout().sections().to_vec())?;
+        let layout = texere_core::Layout::new(table, offsets, sections.to_vec())?;
         let layout = layout.with_tension(self.tension())?;
         let all = Yarns::new(layout, self.materials.clone(), points)?;
         let all = if sources.len() == all.points().len() { all.with_sources(sources)? } else { all };
@@ -366,13 +371,14 @@ impl Live {
         ups.map_or_else(|| vec![Vec3::Z.to_array(); count], |ups| ups.iter().map(Vec3::to_array).collect())
     }
 
-    /// A new mesh of `yarns`, with attributes if the present mesh keeps them.
-    fn another(&self, yarns: &Yarns) -> Result<LiveMesh, LiveError> {
+    /// Begins a new mesh, of `yarns`. It has attributes if the mesh before kept them.
+    fn begin(&mut self, yarns: &Yarns) -> Result<(), LiveError> {
         let mut mesh = start(&*self.device, yarns, self.settings)?;
         if self.mesh.keeps_attributes() {
             mesh.keep_attributes();
         }
-        Ok(mesh)
+        (self.mesh, self.anew, self.picker) = (mesh, true, None);
+        Ok(())
     }
 }
 

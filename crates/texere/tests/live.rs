@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use texere::backend::{Engine, Plan};
 use texere::mesh::MeshPiece;
+use texere::rest::Finish;
 use texere::woven::{Drawdown, Thread, Woven};
 use texere::yarn::{Material, Section, YarnPlace, YarnsBuilder};
 use texere::{
@@ -40,7 +41,7 @@ fn cloth() -> Woven {
     let threads = |count| vec![Thread::new(0.5, 0.1); count];
     let plain = Drawdown::from_fn(40, 36, |end, pick| (end + pick) % 2 == 0).unwrap();
     let materials = vec![Material::default(), Material { srgb: [9, 8, 7], ..Material::default() }];
-    let sections = vec![Section::Circle, Section::Lobed { plies: 2 }];
+    let sections = vec![Section::Circle, Section::plied(2)];
     Woven::new(plain, threads(40), threads(36), materials, sections).unwrap()
 }
 
@@ -88,6 +89,45 @@ fn yarns_that_outgrow_their_room_take_one_mesh_together() {
     assert!(!live.update().unwrap().anew);
     let counted: u64 = live.mesh().plan().layout().point_count();
     assert_eq!(counted, finer(&yarns, 6).points().len() as u64);
+}
+
+/// Plies press into one another at rest, so that yarns get other sections. The fabric stays woven
+/// and can be edited.
+#[test]
+fn plied_cloth_at_rest_is_live() {
+    let threads = vec![Thread { twist: 4.0, ..Thread::new(0.43, 0.1) }; 12];
+    let plain = Drawdown::from_fn(12, 12, |end, pick| (end + pick) % 2 == 0).unwrap();
+    let woven = |sections: Vec<Section>| {
+        let materials = vec![Material::default()];
+        Woven::new(plain.clone(), threads.clone(), threads.clone(), materials, sections).unwrap()
+    };
+    let (cloth, cpu) = (woven(vec![Section::plied(2)]), texere::open("cpu").unwrap());
+    let rest = cloth.at_rest(&Finish::default(), 0.0, &*cpu, |_| ControlFlow::Continue(())).unwrap();
+    assert_ne!(rest.yarns.layout().sections(), cloth.sections());
+
+    let mut live = Live::weave(device(), cloth, Settings::default()).unwrap();
+    live.update().unwrap();
+    live.set_rest(&rest.yarns).unwrap();
+    assert!(live.update().unwrap().anew);
+    let same = |live: &Live, yarns: &Yarns| {
+        let now = live.yarns().unwrap();
+        assert_eq!((now.layout().sections(), now.points()), (yarns.layout().sections(), yarns.points()));
+        assert_eq!(live.mesh().plan().layout().sections(), yarns.layout().sections());
+    };
+    same(&live, &rest.yarns);
+    // A second call changes nothing, and the other threads stay at rest round a lift.
+    live.set_rest(&rest.yarns).unwrap();
+    assert!(live.update().unwrap().changes.is_empty());
+    live.set_lift(4, 5, false).unwrap();
+    let lifted = live.yarns().unwrap();
+    assert_eq!(lifted.layout().sections(), rest.yarns.layout().sections());
+    assert_eq!(lifted.yarn_points(3), rest.yarns.yarn_points(3));
+    live.set_rest(&rest.yarns).unwrap();
+    same(&live, &rest.yarns);
+    // A rest of other numbers of sections is none of this fabric.
+    let other = woven(vec![Section::Circle; 2]).yarns().unwrap();
+    let refused = live.set_rest(&other).unwrap_err().to_string();
+    assert_eq!(refused, "24 yarns at rest of 2 sections are not the fabric's 24 of 1");
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn rings_follow_the_twist_of_cloth() {
 #[test]
 fn rings_follow_the_twist_of_every_section_and_way() {
     let sections = [
-        Section::Lobed { plies: 2 },
+        Section::plied(2),
         Section::Ellipse { aspect: 1.5 },
         Section::Lenticular { aspect: 2.0, distortion: 0.0 },
         Section::PowerEllipse { aspect: 1.2, exponent: 0.7 },
@@ -165,7 +165,7 @@ fn subdivisions_that_are_fixed_are_warned_of() {
 fn hostile_twist_makes_no_giant() {
     for (threads, rings_max) in [(1, 64 * 1_000), (100, 1 << 21), (3_000, 1 << 21)] {
         let mut yarns = Yarns::builder();
-        yarns.section(Section::Lobed { plies: 2 });
+        yarns.section(Section::plied(2));
         for y in 0..threads {
             let points: Vec<_> =
                 (0..1_000).map(|x| ControlPoint::new(x as f32, y as f32, 0.0, 0.2)).collect();

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     for file in ["denim.toml", "satin.toml"] {
         let mut design = texere::read(format!("{designs}/{file}"))?;
-        design.structure.set_section(Section::Lobed { plies: 2 })?;
+        design.structure.set_section(Section::plied(2))?;
         let yarns = design.yarns()?;
         on_little_stack(&yarns, &SerialBackend::new())?;
         for device in ParallelBackend::each() {

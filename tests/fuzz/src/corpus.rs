@@ -28,7 +28,7 @@ pub(crate) const DTX: &[&str] = &[
 /// Design files whose weave is a notation.
 pub(crate) const DESIGNS: &[&str] = &[
     "name = \"Denim\"\n[weave]\nnotation = \"3/1\"\nends = 7\npicks = 5\n[yarns.indigo]\ntex = 84.0\ncolor = \"#2b3f6b\"\n\
-     twist_per_m = -500.0\n[yarns.ecru]\ndiameter_mm = 0.25\nplies = 2\n[warp]\nyarns = [\"2 indigo\", \"ecru\"]\nper_cm = 12.5\n\
+     twist_per_m = -500.0\n[yarns.ecru]\ndiameter_mm = 0.25\nplies = 2\nvalley = 0.75\n[warp]\nyarns = [\"2 indigo\", \"ecru\"]\nper_cm = 12.5\n\
      [weft]\nyarns = [\"ecru\"]\nspacing_mm = 1.25\n[finish]\nwarp_tension = 2\ncalender = 0.5\nstretch_weft = 1.01\n",
     "[weave]\nnotation = \"satin 8(3)\"\nends = 9\npicks = 8\n[cloth]\nshape = \"crossing\"\nwarp_crimp = 0.3\nselvedge = true\n\
      jam = \"flatten\"\n[yarns.a]\ndiameter_mm = 0.3\nsection = { shape = \"ellipse\", aspect = 1.4 }\n[yarns.b]\ndiameter_mm = 0.3\n\

@@ -68,7 +68,8 @@ fn seed(random: &mut Rng) -> (Yarns, Boundary) {
         Section::Ellipse { aspect: 1.5 },
         Section::Lenticular { aspect: 2.0, distortion: 0.2 },
         Section::PowerEllipse { aspect: 2.0, exponent: 0.6 },
-        Section::Lobed { plies: 3 },
+        Section::plied(3),
+        Section::Lobed { plies: 2, valley: 0.8 },
         Section::Polygon(vec![[1.0, -0.5], [1.0, 0.5], [-1.0, 0.5], [-1.0, -0.5]]),
     ] {
         if random.bool() {

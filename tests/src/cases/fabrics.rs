@@ -15,9 +15,9 @@ pub(super) fn sections() -> Vec<(&'static str, Section)> {
         ("lens-tall", Section::Lenticular { aspect: 0.5, distortion: 0.3 }),
         ("power-boxy", Section::PowerEllipse { aspect: 2.0, exponent: 0.4 }),
         ("power-pointed", Section::PowerEllipse { aspect: 1.5, exponent: 1.8 }),
-        ("two-ply", Section::Lobed { plies: 2 }),
-        ("three-ply", Section::Lobed { plies: 3 }),
-        ("seven-ply", Section::Lobed { plies: 7 }),
+        ("two-ply", Section::plied(2)),
+        ("three-ply", Section::plied(3)),
+        ("seven-ply", Section::plied(7)),
     ]
 }
 

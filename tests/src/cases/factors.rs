@@ -15,7 +15,7 @@ const SECTIONS: [Sectioned; 6] = [
     ("ellipse", |_| Section::Ellipse { aspect: 1.8 }),
     ("lens", |_| Section::Lenticular { aspect: 2.0, distortion: 0.25 }),
     ("power", |_| Section::PowerEllipse { aspect: 1.5, exponent: 0.6 }),
-    ("three-ply", |_| Section::Lobed { plies: 3 }),
+    ("three-ply", |_| Section::plied(3)),
     ("polygon", |sides| Section::Polygon(fabrics::cog(sides))),
 ];
 

@@ -54,8 +54,8 @@ pub fn outline(section: &Section, sides: u32) -> Vec<OutlinePoint> {
             let arcs = [1.0, -1.0].map(|up| Arc::new(wide(*aspect), wide(*distortion), up));
             (arcs[0].area() + arcs[1].area(), Box::new(move |k| lens(&arcs, k, sides)))
         }
-        Section::Lobed { plies } => {
-            let depth = lobe_depth(wide(*plies as f32));
+        Section::Lobed { plies, valley } => {
+            let depth = (1.0 - wide(*valley)) / 2.0;
             // The area is half the integral of the squared distance.
             let area = PI * ((1.0 - depth).powi(2) + depth * depth / 2.0);
             (area, Box::new(move |k| lobed(depth, wide(*plies as f32), angle(k, sides))))
@@ -137,14 +137,6 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     point
 }
 
-/// Half the height from the valley between two plies to a ply's outermost point. If p round plies
-/// touch, the valley is at cos(π/p) / (1 + sin(π/p)) of a ply's outermost distance. This share
-/// counts as at least a half.
-fn lobe_depth(plies: f64) -> f64 {
-    let valley = (PI / plies).cos() / (1.0 + (PI / plies).sin());
-    (1.0 - valley.max(0.5)) / 2.0
-}
-
 /// The point at the angle θ of the outline of p plies, whose distance from the axis is 1 - depth (1
 /// - cos pθ).
 fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
@@ -185,8 +177,26 @@ mod tests {
             shapes.extend([0.4, 1.0, 2.0].map(|exponent| Section::PowerEllipse { aspect, exponent }));
             shapes.extend([-0.6, 0.0, 0.3].map(|distortion| Section::Lenticular { aspect, distortion }));
         }
-        shapes.extend((2..=12).map(|plies| Section::Lobed { plies }));
+        shapes.extend((2..=12).map(Section::plied));
+        shapes.extend([0.5, 0.8, 1.0].map(|valley| Section::Lobed { plies: 3, valley }));
         shapes
+    }
+
+    /// If p round plies touch, the valley is at cos(π/p) / (1 + sin(π/p)) of a ply's outermost
+    /// distance.
+    #[test]
+    fn plies_that_nothing_presses_are_round_and_touch() {
+        for plies in 2..=12 {
+            let part = PI / f64::from(plies);
+            let valley = (part.cos() / (1.0 + part.sin())).max(0.5);
+            let Section::Lobed { plies: same, valley: own } = Section::plied(plies) else {
+                panic!("{plies} plies have no lobes");
+            };
+            assert!(
+                same == plies && (f64::from(own) - valley).abs() < 1e-6,
+                "{plies} plies: {own}, {valley}"
+            );
+        }
     }
 
     /// Compares the closed forms with polygons of many corners.

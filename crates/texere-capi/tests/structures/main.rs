@@ -279,7 +279,8 @@ fn every_section_is_that_of_rust() {
         (ellipse, Section::Ellipse { aspect: 1.5 }),
         (lens, Section::Lenticular { aspect: 1.5, distortion: 0.25 }),
         (power, Section::PowerEllipse { aspect: 1.5, exponent: 0.25 }),
-        (lobed, Section::Lobed { plies: 4 }),
+        (texere_section { form: 0.0, ..lobed }, Section::plied(4)),
+        (texere_section { form: 0.75, ..lobed }, Section::Lobed { plies: 4, valley: 0.75 }),
         (polygon, Section::Polygon(vec![[1.5, 0.0], [0.0, 1.0], [-1.5, 0.0], [0.0, -1.0]])),
     ];
     for (given, section) in sections {

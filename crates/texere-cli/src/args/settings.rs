@@ -21,7 +21,8 @@ pub(crate) struct SettingsArgs {
     #[arg(long, value_name = "U")]
     tension: Option<f32>,
     /// One section for all yarns: circle, ellipse:ASPECT, lenticular:ASPECT,
-    /// lenticular:ASPECT:DISTORTION, power-ellipse:ASPECT:EXPONENT, lobed:PLIES
+    /// lenticular:ASPECT:DISTORTION, power-ellipse:ASPECT:EXPONENT, lobed:PLIES,
+    /// lobed:PLIES:VALLEY
     #[arg(long, value_parser = section)]
     pub(crate) section: Option<Section>,
     /// How sections stand along the yarn: upright, which is the default, or carried along without
@@ -124,10 +125,13 @@ fn section(text: &str) -> Result<Section, String> {
         ("lenticular", &[aspect]) => Section::Lenticular { aspect, distortion: 0.0 },
         ("lenticular", &[aspect, distortion]) => Section::Lenticular { aspect, distortion },
         ("power-ellipse", &[aspect, exponent]) => Section::PowerEllipse { aspect, exponent },
-        ("lobed", &[plies]) if plies.fract() == 0.0 && plies >= 0.0 => Section::Lobed { plies: plies as u32 },
+        ("lobed", &[plies]) if plies.fract() == 0.0 && plies >= 0.0 => Section::plied(plies as u32),
+        ("lobed", &[plies, valley]) if plies.fract() == 0.0 && plies >= 0.0 => {
+            Section::Lobed { plies: plies as u32, valley }
+        }
         _ => {
             return Err("expected circle, ellipse:ASPECT, lenticular:ASPECT[:DISTORTION], \
-                        power-ellipse:ASPECT:EXPONENT or lobed:PLIES"
+                        power-ellipse:ASPECT:EXPONENT or lobed:PLIES[:VALLEY]"
                 .into());
         }
     };

@@ -144,6 +144,8 @@ fn exit_codes_say_whose_fault_it_is() {
         (vec!["inspect", &plain, "--subdivisions", "4000000000"], 2, "4000000000 subdivisions"),
         (vec!["inspect", &plain, "--section", "blob"], 2, "expected circle"),
         (vec!["inspect", &plain, "--section", "ellipse:900"], 2, "aspect is 900"),
+        (vec!["inspect", &plain, "--section", "lobed:2:nan"], 2, "valley is NaN"),
+        (vec!["inspect", &plain, "--section", "lobed:2.5:0.8"], 2, "lobed:PLIES[:VALLEY]"),
         (vec!["mesh", &plain, "-o", nowhere], 1, "x.glb"),
         (vec!["mesh", &plain, "-o", "mesh.fbx"], 2, "glb, ply"),
         (vec!["mesh", &plain, "-o", nowhere, "--device", "abacus"], 2, "\"abacus\"; there are: "),

@@ -255,6 +255,35 @@ fn what_is_at_rest_is_clean_and_what_pierces_is_not_at_rest() {
     assert_eq!(report["clean"], false);
 }
 
+/// Plies of woven cloth press into one another, and reports say how far.
+#[test]
+fn pressed_plies_are_said() {
+    let plied = |[ends, picks]: [f64; 2], plies: &str| {
+        format!(
+            "[weave]\nnotation = \"plain\"\nends = 8\npicks = 8\n[yarns.a]\ntex = 118\ntwist_per_m = 330\n{plies}\n\
+             [warp]\nyarns = [\"a\"]\nper_cm = {ends}\n[weft]\nyarns = [\"a\"]\nper_cm = {picks}\n"
+        )
+    };
+    for (text, valley, words) in [
+        (
+            plied([8.0, 12.0], "plies = 2"),
+            Value::from(0.85),
+            "plies pressed, with valleys between them at 0.85 of a ply's reach",
+        ),
+        (
+            plied([22.0, 15.0], "plies = 3"),
+            Value::from(1.0),
+            "plies pressed until no valley is left between them",
+        ),
+    ] {
+        let (report, said) = said("check", &text);
+        assert_eq!(report["settling"]["valley"], valley, "{said}");
+        assert!(said.contains(words), "{said}");
+    }
+    let (report, said) = said("check", &plied([8.0, 12.0], ""));
+    assert!(report["settling"]["valley"].is_null() && !said.contains("plies"), "{said}");
+}
+
 #[test]
 fn a_press_that_is_not_reached_is_said() {
     let (report, words) = said("inspect", PRESSED);

@@ -54,10 +54,14 @@ pub enum Section {
         /// box, and above 1 closer to a lens.
         exponent: f32,
     },
-    /// The outline of `plies` round plies twisted together.
+    /// The outline of plies that are twisted together ([`Section::plied`]).
     Lobed {
-        /// Number of plies.
+        /// Number of plies, from 2 to 12.
         plies: u32,
+        /// Distance of the valley between two plies from the axis, as a share of the distance to
+        /// which a ply reaches, from 0.5 to 1. With 1 the section is a circle. The valley is
+        /// shallower, and the number larger, the more the plies are pressed into one another.
+        valley: f32,
     },
     /// An outline of the caller's own: counter-clockwise corners, in radii of the yarn. A plan of
     /// yarns with this section must have one side per corner.
@@ -99,6 +103,9 @@ impl SectionPoint {
         Self { x, y, normal_x, normal_y }
     }
 }
+
+/// The fewest and the most plies of a section.
+const PLIES: [u32; 2] = [2, 12];
 
 /// The fewest sides a tube can have.
 pub(crate) const SIDES_MIN: u32 = 3;

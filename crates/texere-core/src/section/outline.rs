@@ -1,15 +1,16 @@
 //! Outlines of sections, point by point.
 
-use super::{Section, SectionPoint};
+use super::{PLIES, Section, SectionPoint};
 use crate::definitions::Turn;
 use crate::turn::atan2_turns;
 
-/// The least distance of the valley between two plies from the axis, in radii of the yarn.
+/// The least distance of the valley between two plies from the axis, as a share of the distance to
+/// which a ply reaches.
 ///
 /// Two round plies that just touch leave a valley down to the axis. Real plies press flat against
 /// each other, and their loose fibres fill the rest. With half the value, `a_ply_lies_in_a_furrow`
 /// is red; with twice, `a_carried_frame_does_not_flip_between_rings`.
-const VALLEY: f32 = 0.5;
+pub(super) const VALLEY: f32 = 0.5;
 
 /// Number of points at which the extent and the area of a section are measured. A polygon of 1,024
 /// sides lacks 6e-6 of a circle's area.
@@ -21,6 +22,24 @@ fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
 }
 
 impl Section {
+    /// The outline of plies that are twisted together, and that nothing presses: of round plies
+    /// that touch, but with valleys no deeper than half way to the axis.
+    ///
+    /// ```
+    /// use texere_core::Section;
+    /// assert_eq!(Section::plied(2), Section::Lobed { plies: 2, valley: 0.5 });
+    /// // Six round plies leave shallower valleys than two.
+    /// let reach = |plies| Section::plied(plies).half_width();
+    /// assert!(reach(2) > 1.29 && reach(6) < 1.25);
+    /// ```
+    #[must_use]
+    pub fn plied(plies: u32) -> Self {
+        // Two touching round plies whose centres lie `c` from the axis have a valley at c cos(π /
+        // plies).
+        let (half_sin, half_cos) = sin_cos_at(1, 2 * plies.clamp(PLIES[0], PLIES[1]));
+        Self::Lobed { plies, valley: (half_cos / (1.0 + half_sin)).max(VALLEY) }
+    }
+
     /// The outline as `sides` points, counter-clockwise seen against the tangent.
     ///
     /// The outline of a polygon consists of its corners, whatever `sides` is. A plan refuses a
@@ -72,7 +91,7 @@ fn point(section: &Section, k: u32, count: u32) -> SectionPoint {
             with_normal(width * cos, height * rise.copysign(sin), steepness * cos, width * sin)
         }
         Section::Lenticular { aspect, distortion } => lens(aspect, distortion, k, count),
-        Section::Lobed { plies } => lobed(plies, k, count),
+        Section::Lobed { plies, valley } => lobed(plies, valley, k, count),
         Section::Polygon(_) => SectionPoint::default(),
     }
 }
@@ -99,14 +118,10 @@ fn lens(aspect: f32, distortion: f32, k: u32, count: u32) -> SectionPoint {
 
 /// Point `k` of `count` of the curve with the radius `1 - depth (1 - cos(plies θ))`. The curve
 /// touches the unit circle at each ply, and reaches the valley between two plies.
-fn lobed(plies: u32, k: u32, count: u32) -> SectionPoint {
+fn lobed(plies: u32, valley: f32, k: u32, count: u32) -> SectionPoint {
     let (sin, cos) = sin_cos_at(k, count);
     let turn = ((u64::from(k) << 32) / u64::from(count)) as u32;
     let (lobe_sin, lobe_cos) = Turn(turn.wrapping_mul(plies)).sin_cos();
-    // Two touching round plies whose centres lie `c` from the axis have a valley at c cos(π /
-    // plies).
-    let (half_sin, half_cos) = sin_cos_at(1, 2 * plies);
-    let valley = (half_cos / (1.0 + half_sin)).max(VALLEY);
     let depth = (1.0 - valley) / 2.0;
     let distance = 1.0 - depth * (1.0 - lobe_cos);
     let change = -depth * plies as f32 * lobe_sin;

@@ -1,7 +1,7 @@
 //! The checks of a section's parameters.
 
-use super::outline::{cross, doubled_area};
-use super::{SIDES_MAX, SIDES_MIN, Section, SectionError};
+use super::outline::{VALLEY, cross, doubled_area};
+use super::{PLIES, SIDES_MAX, SIDES_MIN, Section, SectionError};
 
 /// The largest coordinate of a corner, in radii of the yarn.
 const CORNER_LIMIT: f32 = 100.0;
@@ -30,7 +30,11 @@ impl Section {
                 within("aspect", *aspect, 0.05, 20.0)?;
                 within("exponent", *exponent, 0.1, 4.0)
             }
-            Self::Lobed { plies } => within("plies", *plies as f32, 2.0, 12.0),
+            Self::Lobed { plies, valley } => {
+                let [fewest, most] = PLIES.map(|plies| plies as f32);
+                within("plies", *plies as f32, fewest, most)?;
+                within("valley", *valley, VALLEY, 1.0)
+            }
             Self::Polygon(corners) => polygon(corners),
         }
     }

@@ -17,3 +17,4 @@ pub use places::{
     ClothClearance, Crossing, StitchPlace, ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace,
 };
 pub use verdict::Verdict;
+pub(crate) use verdict::is_clear;

@@ -102,6 +102,6 @@ impl WovenRest {
 }
 
 /// Whether surfaces with this clearance do not pierce, and with this bend do not fold.
-fn is_clear(clearance: f64, bend: f64) -> bool {
+pub(crate) fn is_clear(clearance: f64, bend: f64) -> bool {
     clearance >= CLEAR && bend >= 1.0
 }

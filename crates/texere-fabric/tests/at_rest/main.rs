@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
 mod layers;
+mod plies;
 mod progress;
 mod selvedge;
 mod setts;

@@ -355,7 +355,7 @@ fn a_plied_yarn_meets_itself_from_either_end() {
             points.reverse();
         }
         let mut yarn = Yarns::builder();
-        yarn.section(Section::Lobed { plies: 4 });
+        yarn.section(Section::plied(4));
         yarn.yarn(Yarn::default(), &points);
         clearance(&yarn.build().unwrap(), &Settings::default()).unwrap()
     };
@@ -370,7 +370,7 @@ fn a_plied_yarn_meets_itself_from_either_end() {
 fn a_yarn_of_too_many_rings_is_refused() {
     let points: Vec<_> = (0..5_000_000).map(|k| ControlPoint::new(k as f32, 0.0, 0.0, 0.1)).collect();
     let mut yarns = Yarns::builder();
-    yarns.section(Section::Lobed { plies: 2 });
+    yarns.section(Section::plied(2));
     yarns.yarn(Yarn { twist: 1.0, ..Yarn::default() }, &points);
     let settings = Settings { subdivisions: 1023, ..Settings::default() };
     let refused = clearance(&yarns.build().unwrap(), &settings);

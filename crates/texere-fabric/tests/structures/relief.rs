@@ -99,7 +99,7 @@ fn what_can_not_be_flattened_is_told() {
 /// Threads of two plies are flattened, and their section stays as it is.
 #[test]
 fn plies_are_flattened_as_they_are() {
-    let plies = Section::Lobed { plies: 2 };
+    let plies = Section::plied(2);
     let mut lobed = cloth_of(plies.clone());
     let report = lobed.relieve(Relief::Flatten).unwrap();
     assert!(report.widened != UNCHANGED, "{report:?}");

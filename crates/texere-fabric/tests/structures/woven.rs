@@ -271,8 +271,8 @@ fn a_section_that_is_not_sound_changes_nothing() {
     let before = cloth.clone();
     assert!(cloth.set_section(Section::Ellipse { aspect: 0.0 }).is_err());
     assert_eq!(cloth, before);
-    cloth.set_section(Section::Lobed { plies: 3 }).unwrap();
-    assert_eq!(cloth.sections(), [Section::Lobed { plies: 3 }]);
+    cloth.set_section(Section::plied(3)).unwrap();
+    assert_eq!(cloth.sections(), [Section::plied(3)]);
     assert!(cloth.yarns().is_ok());
 }
 

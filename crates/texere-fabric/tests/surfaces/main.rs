@@ -57,7 +57,7 @@ fn vertices_lie_on_the_surface() {
     const SIDES: u32 = 48;
     let bent = [[0.0, 0.0, 0.0], [1.0, 0.2, 0.2], [2.0, 0.5, -0.2], [3.0, 0.3, 0.0]]
         .map(|[x, y, z]| ControlPoint::new(x, y, z, RADIUS).flattened(RADIUS + 0.1 * z, RADIUS - 0.2 * z));
-    let section = Section::Lobed { plies: 3 };
+    let section = Section::plied(3);
     let outline = Rc::new(Outline::of(&section));
     for twist in [-4.0, 4.0] {
         let yarns = yarns(section.clone(), &[(Yarn { twist, ..Yarn::default() }, bent)]);
@@ -131,7 +131,7 @@ fn furrow_and_ply() -> Yarns {
     let (lead, apart) = (5.0, 1.95 * RADIUS);
     let ply = straight([0.0, 0.0, 0.0], [0.0, 0.01, 0.0], 0, 0.0);
     let furrow = straight([apart, -lead, 0.0], [apart, 1.0, 0.0], 0, std::f32::consts::FRAC_PI_2 / lead);
-    yarns(Section::Lobed { plies: 2 }, &[ply, furrow])
+    yarns(Section::plied(2), &[ply, furrow])
 }
 
 /// A ply fits into a furrow. Hulls of sections have no furrows, and touch earlier.
@@ -158,12 +158,12 @@ fn the_clearance_is_that_of_surfaces() {
     // neighbour along the whole length.
     for plies in [3, 5] {
         let threads = set(4, [2.5, 0.95], RADIUS, 0.0);
-        let doubled = woven("2/2(2+2)", threads, Section::Lobed { plies });
+        let doubled = woven("2/2(2+2)", threads, Section::plied(plies));
         cases.push((format!("doubled threads of {plies} plies"), doubled));
     }
-    let lobed = (2..=6).map(|plies| Section::Lobed { plies });
+    let lobed = (2..=6).map(Section::plied);
     let sections: Vec<_> = [Section::Ellipse { aspect: 2.0 }].into_iter().chain(lobed).collect();
-    for section in [Section::Circle, Section::Ellipse { aspect: 2.0 }, Section::Lobed { plies: 2 }] {
+    for section in [Section::Circle, Section::Ellipse { aspect: 2.0 }, Section::plied(2)] {
         for twist in [0.0, 300.0] {
             cases.push((format!("flattened {section:?}, twist {twist}"), flattened(&section, twist)));
         }
@@ -191,7 +191,7 @@ fn the_clearance_is_that_of_surfaces() {
 /// place, on the wide side of the section.
 #[test]
 fn a_carried_frame_does_not_flip_between_rings() {
-    for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.33), (Section::Lobed { plies: 2 }, 0.28)] {
+    for (section, away) in [(Section::Ellipse { aspect: 3.0 }, 0.33), (Section::plied(2), 0.28)] {
         let mut yarns = Yarns::builder();
         let round = yarns.section(Section::Circle);
         let section = yarns.section(section);
@@ -215,7 +215,7 @@ fn plied_threads_in_their_own_room_stay_clear() {
     for plies in 2..=6 {
         for twist in [0.0, 300.0, 700.0] {
             for sett in [3.0, 5.0] {
-                let section = Section::Lobed { plies };
+                let section = Section::plied(plies);
                 let yarns = woven("plain", set(4, [sett; 2], RADIUS, twist), section);
                 let settings = dense(&yarns);
                 let (oracle, crates) = (surface_ratio(&yarns, settings), clearance_ratio(&yarns, settings));

@@ -190,8 +190,9 @@ fn section(bytes: &mut Bytes<'_>) -> Result<Section, ReadError> {
         },
         section::LOBED => {
             let plies = bytes.word("a section's plies")?;
-            bytes.unused(UNUSED)?;
-            Section::Lobed { plies }
+            let valley = bytes.float("a section's valley")?;
+            // 0 stands for the valley of plies that nothing presses.
+            if valley == 0.0 { Section::plied(plies) } else { Section::Lobed { plies, valley } }
         }
         section::POLYGON => {
             let corners = "the number of a section's corners";

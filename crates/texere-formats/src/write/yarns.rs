@@ -204,7 +204,9 @@ impl<W: Write> Content<W> {
             Section::PowerEllipse { aspect, exponent } => {
                 (section::POWER_ELLIPSE, [aspect.to_bits(), exponent.to_bits()])
             }
-            Section::Lobed { plies } => (section::LOBED, [plies, 0]),
+            // 0 stands for the valley of plies that nothing presses.
+            Section::Lobed { plies, .. } if *shape == Section::plied(plies) => (section::LOBED, [plies, 0]),
+            Section::Lobed { plies, valley } => (section::LOBED, [plies, valley.to_bits()]),
             Section::Polygon(ref corners) => (section::POLYGON, [corners.len() as u32, 0]),
             _ => return Err(WriteError::Unheld { format: FORMAT, what: format!("the section {shape:?}") }),
         };

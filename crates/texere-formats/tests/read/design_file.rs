@@ -58,10 +58,24 @@ fn every_key_arrives() {
     assert_eq!(woven.materials()[end.material as usize].tex, Some(84.0));
     // 500 turns S per metre are half a turn, -π, per millimetre.
     assert!((end.twist + std::f32::consts::PI).abs() < 1e-6);
-    assert_eq!(woven.sections()[pick.section as usize], Section::Lobed { plies: 2 });
+    assert_eq!(woven.sections()[pick.section as usize], Section::plied(2));
     assert_eq!(pick.radius_mm, 0.125);
     // Peirce's cotton: 1/28 inch for the count 1, and 84 tex is count 590.5/84.
     assert!((end.radius_mm * 2.0 - 25.4 / (28.0 * (590.5f32 / 84.0).sqrt())).abs() < 2e-3);
+}
+
+/// Plies may be pressed into one another.
+#[test]
+fn a_valley_lies_between_plies() {
+    let pressed = Section::Lobed { plies: 2, valley: 0.75 };
+    assert!(cloth(&DENIM.replace("plies = 2", "plies = 2\nvalley = 0.75")).sections().contains(&pressed));
+    let needs = ["valley", "is given without plies of 2 or more, which it belongs to"];
+    refused("plies = 2", "valley = 0.75", &needs);
+    refused("plies = 2", "plies = 1\nvalley = 0.75", &needs);
+    refused("plies = 2", "plies = 2\nvalley = 0.4", &["yarns.ecru.valley", "is 0.4, outside 0.5 to 1"]);
+    refused("plies = 2", "section = { shape = \"circle\" }\nvalley = 0.6", &needs);
+    let both = "section = { shape = \"circle\" }\nplies = 2\nvalley = 0.6";
+    refused("plies = 2", both, &["give exactly one of section and plies"]);
 }
 
 /// Fibres stand off spun staple, which has twist, and not off filament. A design may state the

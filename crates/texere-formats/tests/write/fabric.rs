@@ -22,7 +22,7 @@ pub(crate) fn fabric() -> Yarns {
         .zip([[236, 229, 212], [10, 0, 255]])
         .map(|(name, srgb)| yarns.material(Material { name, srgb, ..Material::default() }))
         .collect();
-    let (round, lobed) = (yarns.section(Section::Circle), yarns.section(Section::Lobed { plies: 3 }));
+    let (round, lobed) = (yarns.section(Section::Circle), yarns.section(Section::plied(3)));
     let wave = |points: u32, height: f32, along_x: bool| -> Vec<ControlPoint> {
         (0..points)
             .map(|step| {

@@ -43,7 +43,8 @@ fn section() -> impl Strategy<Value = Section> {
         1 => (numbers(0.06, 19.0), -0.89_f32..0.89)
             .prop_map(|(aspect, distortion)| Section::Lenticular { aspect, distortion }),
         1 => (numbers(0.06, 19.0), numbers(0.11, 3.9)).prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
-        1 => (2_u32..=12).prop_map(|plies| Section::Lobed { plies }),
+        1 => (2_u32..=12).prop_map(Section::plied),
+        1 => (2_u32..=12, 0.5_f32..=1.0).prop_map(|(plies, valley)| Section::Lobed { plies, valley }),
         1 => Just(Section::Polygon(corners)),
     ]
 }

@@ -51,7 +51,7 @@ pub(crate) fn odd() -> (Yarns, Boundary) {
         Section::Ellipse { aspect: 0.1 + 0.2 },
         Section::Lenticular { aspect: 2.0, distortion: -0.3 },
         Section::PowerEllipse { aspect: 1.7, exponent: 0.6 },
-        Section::Lobed { plies: 5 },
+        Section::plied(5),
         Section::Polygon(vec![[1.0, -0.5], [1.0, 0.5], [-1.0, 0.5], [-1.0, -0.5], [-0.0, -0.7]]),
     ] {
         yarns.section(section);

@@ -154,6 +154,8 @@ fn every_field_is_checked() {
         (SECTIONS_AT + 16, &float(21.0), "section 1 is not sound: aspect is 21, outside 0.05 to 20"),
         (SECTIONS_AT + 16, &nan, "section 1 is not sound: aspect is NaN"),
         (SECTIONS_AT + 4 * 12 + 4, &word(13), "section 4 is not sound: plies is 13"),
+        (SECTIONS_AT + 4 * 12 + 8, &float(0.4), "section 4 is not sound: valley is 0.4, outside 0.5 to 1"),
+        (SECTIONS_AT + 4 * 12 + 8, &nan, "section 4 is not sound: valley is NaN"),
         (
             SECTIONS_AT + 5 * 12 + 4,
             &word(u32::MAX),

@@ -51,7 +51,8 @@ fn section() -> impl Strategy<Value = Section> {
         aspect().prop_map(|aspect| Section::Ellipse { aspect }),
         (aspect(), -0.9f32..=0.9).prop_map(|(aspect, distortion)| Section::Lenticular { aspect, distortion }),
         (aspect(), 0.1f32..=4.0).prop_map(|(aspect, exponent)| Section::PowerEllipse { aspect, exponent }),
-        (2u32..=12).prop_map(|plies| Section::Lobed { plies }),
+        (2u32..=12).prop_map(Section::plied),
+        (2u32..=12, 0.5f32..=1.0).prop_map(|(plies, valley)| Section::Lobed { plies, valley }),
         (0.1f32..100.0, 3u32..=256).prop_map(|(radius, count)| {
             let corner = |corner| (corner as f32 / count as f32 * std::f32::consts::TAU).sin_cos();
             Section::Polygon((0..count).map(corner).map(|(sin, cos)| [radius * cos, radius * sin]).collect())

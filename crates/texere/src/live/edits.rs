@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use texere_core::backend::{Edits, SessionError};
-use texere_core::{ControlPoint, Material, PlanError, Yarn, YarnError, Yarns, check_material, check_points};
+use texere_core::{
+    ControlPoint, Layout, Material, PlanError, Section, Yarn, YarnError, Yarns, check_material, check_points,
+};
 use texere_fabric::{Loom, Structure};
 
 use super::{Live, LiveError, SetYarn, Source};
@@ -78,7 +80,7 @@ impl Live {
         check_points(yarn, points).map_err(SessionError::from)?;
         let ups = self.ups(yarn).filter(|ups| ups.len() == points.len()).map(<[_]>::to_vec);
         let (points, before) = (points.to_vec(), self.before(yarn));
-        self.set_all([(yarn, SetYarn { what, points, sources: None, ups, before })])
+        self.set_all([(yarn, SetYarn { what, points, sources: None, ups, before })], None)
     }
 
     /// Gives yarn number `yarn`, counted from 0, other control points, mm. There may be more or
@@ -118,9 +120,7 @@ impl Live {
     /// [`Live::yarns`] and [`Live::given`]. After an error the fabric is unchanged.
     pub fn set_tension(&mut self, tension: f32) -> Result<(), LiveError> {
         let yarns = self.yarns()?.with_tension(tension)?;
-        self.mesh = self.another(&yarns)?;
-        (self.anew, self.picker) = (true, None);
-        Ok(())
+        self.begin(&yarns)
     }
 
     /// Refuses yarns whose splines have another tension than the fabric's.
@@ -150,9 +150,9 @@ impl Live {
         self.check_tension(&yarns)?;
         let (before, after) = (self.mesh.plan().layout().clone(), yarns.layout().clone());
         if before.yarns().len() != after.yarns().len() || before.sections() != after.sections() {
-            self.mesh = self.another(&yarns)?;
+            self.begin(&yarns)?;
             self.materials = yarns.materials().to_vec();
-            (self.source, self.anew, self.picker) = (Source::Given(yarns), true, None);
+            self.source = Source::Given(yarns);
             self.set.clear();
         } else {
             let mut old = Vec::new();
@@ -173,7 +173,8 @@ impl Live {
 
     /// Replaces all yarns by those of the same fabric at rest, and keeps the weave. Threads whose
     /// lifts are set later lie as they are woven, among the yarns at rest, until the next call.
-    /// Yarns that do not change are not made again.
+    /// Yarns that do not change are not made again. If sections do, because plies have pressed into
+    /// one another, a new mesh is begun.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -196,13 +197,14 @@ impl Live {
     /// # }
     /// ```
     ///
-    /// **Errors**: [`LiveError::OtherYarns`] if the numbers of yarns or the sections differ,
+    /// **Errors**: [`LiveError::OtherYarns`] if the numbers of yarns or of sections differ,
     /// [`LiveError::Yarns`] for yarns of another [tension](Live::tension), and the errors of
     /// [`Live::set_yarn`].
     pub fn set_rest(&mut self, rest: &Yarns) -> Result<(), LiveError> {
         self.check_tension(rest)?;
         let (layout, own) = (rest.layout(), self.mesh.plan().layout());
-        if layout.yarns().len() != own.yarns().len() || layout.sections() != own.sections() {
+        let counts = |layout: &Layout| [layout.yarns().len(), layout.sections().len()];
+        if counts(layout) != counts(own) {
             return Err(LiveError::OtherYarns {
                 given: layout.yarns().len(),
                 sections: layout.sections().len(),
@@ -228,7 +230,8 @@ impl Live {
                 changed.push((yarn, SetYarn { what: *what, points, sources, ups, before }));
             }
         }
-        self.set_all(changed)
+        let sections = (layout.sections() != self.mesh.plan().layout().sections()).then(|| layout.sections());
+        self.set_all(changed, sections)
     }
 
     /// Material, section, twist and origin of the source's yarn number `yarn`.
@@ -236,14 +239,22 @@ impl Live {
         self.set.get(&yarn).map_or_else(|| self.yarn(yarn), |set| set.before)
     }
 
-    /// Replaces yarns of the source: all of `yarns`, or none if that fails.
-    fn set_all(&mut self, yarns: impl IntoIterator<Item = (usize, SetYarn)>) -> Result<(), LiveError> {
+    /// Replaces yarns of the source, and the sections of all yarns if `sections` are given: all of
+    /// them, or none if that fails.
+    fn set_all(
+        &mut self,
+        yarns: impl IntoIterator<Item = (usize, SetYarn)>,
+        sections: Option<&[Section]>,
+    ) -> Result<(), LiveError> {
         let (mut numbers, mut replaced) = (Vec::new(), Vec::new());
         for (yarn, set) in yarns {
             numbers.push(yarn);
             replaced.push(self.set.insert(yarn, set));
         }
-        let shown = self.show_all(&numbers);
+        let shown = match sections {
+            Some(sections) => self.yarns_with(sections).and_then(|yarns| self.begin(&yarns)),
+            None => self.show_all(&numbers),
+        };
         for (yarn, replaced) in numbers.into_iter().zip(replaced) {
             if shown.is_err() {
                 match replaced {
@@ -269,9 +280,7 @@ impl Live {
             if self.ups(yarn).is_some()
                 || matches!(edit, Err(PlanError::NoRoom { .. } | PlanError::OtherPlan { .. }))
             {
-                self.mesh = self.another(&self.yarns()?)?;
-                (self.anew, self.picker) = (true, None);
-                return Ok(());
+                return self.begin(&self.yarns()?);
             }
             laid.push((yarn, what, points));
         }

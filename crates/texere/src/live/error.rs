@@ -41,7 +41,7 @@ pub enum LiveError {
     /// The yarns break a rule of all yarns.
     #[error(transparent)]
     Yarns(#[from] YarnError),
-    /// The yarns at rest are not as many as the fabric's, or have other sections.
+    /// The yarns at rest, or their sections, are not as many as the fabric's.
     #[error("{given} yarns at rest of {sections} sections are not the fabric's {yarns} of {own}")]
     OtherYarns {
         /// Number of yarns at rest.

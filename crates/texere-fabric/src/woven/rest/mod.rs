@@ -4,6 +4,7 @@ mod certificate;
 mod ease;
 mod nesting;
 mod path;
+mod plies;
 mod problem;
 mod resting;
 mod span;
@@ -24,9 +25,10 @@ use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
 use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
-/// The share of the progress at which crossings have settled.
+/// The share at which crossings have settled, of the progress of crossings and surfaces. In the
+/// rest of it surfaces are measured, and threads made thinner.
 const SETTLED: f64 = 0.5;
-/// The share of the progress at which surfaces have been measured, and threads made thinner.
+/// The share of all progress at which threads have been made thinner.
 const CERTIFIED: f64 = 0.95;
 
 /// Woven cloth that has come to rest.
@@ -59,12 +61,30 @@ pub struct WovenRest {
     /// Whether a thread is as dense at some crossing as its fibres allow
     /// ([`Thread::least_area`](crate::Thread::least_area)).
     pub solid: bool,
+    /// The least distance of a valley between two plies from the thread's axis, as a share of the
+    /// distance to which a ply reaches ([`Section::Lobed`](texere_core::Section::Lobed)). It grows
+    /// when plies press into one another. With 1, plied threads are round. `None` if no thread has
+    /// plies. Cloth of plied threads may come to rest several times, with plies that are pressed
+    /// more each time; all other fields are those of the last time.
+    pub valley: Option<f32>,
+}
+
+/// Crossings at rest, with threads made thinner where surfaces lacked clearance.
+struct Certified {
+    resting: RestingRepeat,
+    rest: CrossingsRest,
+    /// The area that threads keep before any was made thinner.
+    at_first: BySet<[f64; 2]>,
+    clearance: [f64; 2],
+    bend: f64,
+    rounds: u32,
 }
 
 impl Woven {
     /// The problem of the cloth's crossings: the smallest repeat of the cloth, or the whole cloth
     /// if nothing repeats. In the problem the last threads lie beside the first ones, so that
-    /// something holds every edge.
+    /// something holds every edge. Plies are as they are given; [`Woven::at_rest`] presses them
+    /// first.
     #[must_use]
     pub fn crossings(&self) -> Crossings {
         Problem::new(self).crossings
@@ -73,8 +93,9 @@ impl Woven {
     /// Lets the cloth come to rest on `backend` as `finish` asks. Threads flatten, shift and share
     /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
     /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
-    /// clearance. `tension` is the tension of the yarns' splines, from 0 to below 1. A thread's
-    /// given [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
+    /// clearance. The plies of threads press into one another ([`WovenRest::valley`]). `tension` is
+    /// the tension of the yarns' splines, from 0 to below 1. A thread's given
+    /// [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
     /// [`Woven::shape`]. `progress` gets the share of the work done. `Break` ends the call with
     /// [`FabricError::Cancelled`].
     ///
@@ -113,19 +134,17 @@ impl Woven {
         if let Some((asked, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) {
             return Err(FinishError::Woven { asked });
         }
-        let (mut resting, rest) = self.resting(finish, tension, backend, |done| progress(SETTLED * done))?;
-        let repeat = resting.repeat();
-        let at_first = resting.area(self);
-        let (clearance, bend, rounds) =
-            certify(self, &mut resting, |done| progress(SETTLED + (CERTIFIED - SETTLED) * done))?;
+        let (cloth, valley, certified) =
+            self.pressed(finish, tension, backend, |done| progress(CERTIFIED * done))?;
+        let Certified { resting, rest, at_first, clearance, bend, rounds } = certified;
         let placed = &mut |done| progress(CERTIFIED + (1.0 - CERTIFIED) * done);
-        let (area, yarns) = (resting.area(self), resting.yarns_with_progress(self, placed)?);
+        let (area, yarns) = (resting.area(&cloth), resting.yarns_with_progress(&cloth, placed)?);
         if progress(1.0).is_break() {
             return Err(FabricError::Cancelled.into());
         }
         Ok(WovenRest {
             yarns,
-            repeat: BySet::of(repeat),
+            repeat: BySet::of(resting.repeat()),
             crossings: rest,
             clearance,
             bend,
@@ -134,7 +153,20 @@ impl Woven {
             area_least: area.map(|[_, least]| least),
             solid: resting.is_solid(),
             area_lost: BySet { warp: at_first.warp[0] - area.warp[0], weft: at_first.weft[0] - area.weft[0] },
+            valley,
         })
+    }
+
+    /// The crossings at rest, with threads made thinner where surfaces lacked clearance.
+    fn certified(
+        &self,
+        mut resting: RestingRepeat,
+        rest: CrossingsRest,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<Certified, FabricError> {
+        let at_first = resting.area(self);
+        let (clearance, bend, rounds) = certify(self, &mut resting, progress)?;
+        Ok(Certified { resting, rest, at_first, clearance, bend, rounds })
     }
 
     /// The cloth's crossings at rest, before surfaces are measured, and the report on how they came

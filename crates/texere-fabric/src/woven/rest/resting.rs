@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use texere_contact::{Report, Watch};
 use texere_core::backend::zeroed;
 use texere_core::crossings::{CrossingState, CrossingsPlan, Level, Neighbours, Set};
-use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Yarns};
+use texere_core::{ControlPoint, Halves, Layout, RADIUS_MIN, Section, Yarns};
 
 use super::path::Station;
 use super::problem::{Problem, gaps};
@@ -16,7 +16,11 @@ use super::stop::{CHANGE_POINTS, LAYERED_POINTS, Stop};
 use super::turn::{TURN_POINTS, Turn};
 use crate::woven::selvedge;
 use crate::woven::yarns::{Pass, Pen};
-use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Woven, WovenError};
+use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Thread, Woven, WovenError};
+
+/// The share of its area below which a section has lost area by more than the accuracy of a
+/// settling. No other value was tried.
+const LOST: f32 = 0.99;
 
 /// The area of a section up to which the section counts as solid, as a multiple of its least area.
 const SOLID: f32 = 1.02;
@@ -89,17 +93,34 @@ impl RestingRepeat {
     /// For each set, the share of their cross-section's area that threads keep: the mean over all
     /// crossings, and the least.
     pub(super) fn area(&self, cloth: &Woven) -> BySet<[f64; 2]> {
-        BySet { warp: 0, weft: 1 }.map(|set: usize| {
-            let threads = [cloth.warp(), cloth.weft()][set];
-            let keeps = self.drawn.iter().enumerate().map(|(number, drawn)| {
-                let thread = [number % self.repeat[0], number / self.repeat[0]][set] % threads.len();
-                let ([width, height], radius) = (self.rooms[set][thread], threads[thread].radius_mm);
-                f64::from(drawn[set][0] * drawn[set][1] / (width * height * radius * radius))
-            });
+        BySet { warp: Set::Warp, weft: Set::Weft }.map(|set| {
+            let keeps = (0..self.drawn.len()).map(|number| f64::from(self.kept(cloth, number, set).1));
             let add = |[sum, least]: [f64; 2], kept: f64| [sum + kept, least.min(kept)];
             let [sum, least] = keeps.fold([0.0, f64::INFINITY], add);
             [sum / self.drawn.len() as f64, least]
         })
+    }
+
+    /// The thread of a set at a crossing of the repeat, and the share of its cross-section's area
+    /// that it keeps there.
+    fn kept<'a>(&self, cloth: &'a Woven, number: usize, set: Set) -> (&'a Thread, f32) {
+        let threads = [cloth.warp(), cloth.weft()][set as usize];
+        let thread = [number % self.repeat[0], number / self.repeat[0]][set as usize] % threads.len();
+        let ([width, height], radius) = (self.rooms[set as usize][thread], threads[thread].radius_mm);
+        let drawn = self.drawn[number][set as usize];
+        (&threads[thread], drawn[0] * drawn[1] / (width * height * radius * radius))
+    }
+
+    /// Whether a thread with plies has lost area at some crossing, and is as dense there as its
+    /// fibres allow.
+    pub(super) fn are_plies_solid(&self, cloth: &Woven) -> bool {
+        let is_solid = |number: usize, set: Set| {
+            let (thread, kept) = self.kept(cloth, number, set);
+            let section = &cloth.sections()[thread.section as usize];
+            let lost = kept < LOST.min(SOLID * thread.least_area);
+            lost && matches!(section, Section::Lobed { .. })
+        };
+        (0..self.drawn.len()).any(|number| Set::BOTH.into_iter().any(|set| is_solid(number, set)))
     }
 
     /// The least product of half width and half height that a thread of `set` keeps at a crossing

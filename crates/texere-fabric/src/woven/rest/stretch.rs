@@ -1,6 +1,7 @@
 //! Cloth that is stretched along one set of threads. It becomes narrower across, because its
 //! threads keep their lengths.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use texere_contact::lengths_mm;
@@ -82,15 +83,22 @@ impl Woven {
     ) -> Result<(Self, Finish), FinishError> {
         let Stretch { along, by } = stretch;
         let across = along.other();
+        // Threads with plies are as long as at rest if their plies are pressed as much.
+        let is_plied = self.is_plied();
         // Each settling reports its own share of the progress, so that progress shows during the
         // first one, too, and a wish to stop is heeded in each of them.
-        let (mut courses, share) = (0.0, 1.0 / f64::from(1 + HALVINGS * GIVES));
+        let mut courses = f64::from(u8::from(is_plied));
+        let share = 1.0 / (courses + f64::from(1 + HALVINGS * GIVES));
+        let pressed = match is_plied {
+            true => self.pressed(finish, tension, backend, |done| progress(done * share))?.0,
+            false => Cow::Borrowed(self),
+        };
         let mut crimps_of = |cloth: &Self, finish: &Finish| {
             let crimps = cloth.crimps(finish, tension, backend, |done| progress((courses + done) * share));
             courses += 1.0;
             crimps
         };
-        let first = crimps_of(self, finish)?;
+        let first = crimps_of(&pressed, finish)?;
         let wanted = (1.0 + first[along]) / by - 1.0;
         let most = (1.0 + first[along]) / (1.0 + STRAIGHT);
         let refused = || FinishError::Stretch { along: ["warp", "weft"][along as usize], by, most };
@@ -105,17 +113,18 @@ impl Woven {
             taut[along] = pull(along, tauter / 2.0);
             taut[across] = pull(across, -tauter / 2.0);
             let finish = Finish { taut, ..*finish };
-            let (mut cloth, mut crimps) = (self.clone(), first);
+            let (mut cloth, mut crimps) = (pressed.as_ref().clone(), first);
             for _ in 0..GIVES {
                 let mut times = BySet { warp: by, weft: by };
                 times[across] = narrower;
                 // A cloth that is longer along one set has the threads of the other set further
                 // apart.
-                cloth = self.spaced([times.weft, times.warp])?;
+                cloth = pressed.spaced([times.weft, times.warp])?;
                 crimps = crimps_of(&cloth, &finish)?;
                 narrower = (1.0 + first[across]) / (1.0 + crimps[across]);
             }
             if (crimps[along] - wanted).abs() < NEAR {
+                cloth.sections.clone_from(&self.sections);
                 return Ok((cloth, finish));
             }
             range[usize::from(crimps[along] < wanted)] = tauter;

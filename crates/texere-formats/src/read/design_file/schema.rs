@@ -136,6 +136,7 @@ tables! {
         color: Option<Spanned<String>>,
         section: Option<Spanned<Section>>,
         plies: Option<Spanned<i64>>,
+        valley: Option<Spanned<f64>>,
         flatness: Option<Spanned<f64>>,
         stiffness: Option<Spanned<f64>>,
         bending_stiffness: Option<Spanned<f64>>,

@@ -23,6 +23,9 @@ const DENSITY: [f64; 2] = [0.05, 20.0];
 /// The least and the greatest least area of a yarn's section.
 const LEAST_AREA: [f64; 2] = [0.0, 1.0];
 
+/// The deepest and the shallowest valley between two plies.
+const VALLEY: [f64; 2] = [0.5, 1.0];
+
 /// The least and the greatest stiffness of a yarn, as a multiple of that of a cotton yarn of its
 /// diameter.
 const STIFFNESS: [f64; 2] = [0.01, 100.0];
@@ -294,10 +297,19 @@ fn section(source: &Source<'_>, name: &str, spec: &YarnSpec) -> Result<Section, 
         .as_ref()
         .map(|plies| source.integer(&format!("yarns.{name}.plies"), plies, 1, 12))
         .transpose()?;
+    let field = format!("yarns.{name}.valley");
+    let valley = source.optional(&field, &spec.valley, VALLEY)?;
+    if let Some(valley) = &spec.valley
+        && plies.is_none_or(|plies| plies < 2)
+    {
+        let place = source.place(&field, valley.span());
+        return Err(ReadError::Without { place, needs: "plies of 2 or more" });
+    }
     let Some(shape) = &spec.section else {
-        return Ok(match plies {
-            Some(plies) if plies > 1 => Section::Lobed { plies },
-            _ => Section::Circle,
+        return Ok(match (plies.filter(|plies| *plies > 1), valley) {
+            (Some(plies), Some(valley)) => Section::Lobed { plies, valley: valley as f32 },
+            (Some(plies), None) => Section::plied(plies),
+            (None, _) => Section::Circle,
         });
     };
     if plies.is_some() {

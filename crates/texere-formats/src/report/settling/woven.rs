@@ -29,6 +29,8 @@ pub(crate) struct WovenRestReport {
     pub(super) clearance: f64,
     /// How many times threads were made thinner.
     rounds: u32,
+    /// The least distance of a valley between two plies from the axis, as a share of a ply's reach.
+    valley: Option<f32>,
     /// The area of the threads' cross-sections in each set, as a share of the area that the design
     /// gives them.
     area: Sets<AreaReport>,
@@ -60,6 +62,7 @@ impl WovenRestReport {
             clearance_before: rest.clearance[0],
             clearance: rest.clearance[1],
             rounds: rest.rounds,
+            valley: rest.valley,
             area: area.into(),
         }
     }
@@ -67,7 +70,7 @@ impl WovenRestReport {
 
 impl fmt::Display for WovenRestReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { device, verdict, passes, repeat, clearance_before, clearance, rounds, area, .. } = self;
+        let Self { device, verdict, passes, repeat, clearance_before, clearance, rounds, .. } = self;
         let Sets { warp, weft } = repeat;
         let s = if *passes == 1 { "" } else { "es" };
         write!(f, "{verdict} after {passes} pass{s} on {device}, {warp} by {weft} threads; ")?;
@@ -82,7 +85,14 @@ impl fmt::Display for WovenRestReport {
         }
         let kept =
             |area: &AreaReport| format!("{:.1} % (least {:.1} %)", area.mean * 100.0, area.least * 100.0);
-        write!(f, "; area left of ends {}, of picks {}", kept(&area.warp), kept(&area.weft))?;
+        write!(f, "; area left of ends {}, of picks {}", kept(&self.area.warp), kept(&self.area.weft))?;
+        match self.valley {
+            None => {}
+            Some(1.0) => write!(f, "; plies pressed until no valley is left between them")?,
+            Some(valley) => {
+                write!(f, "; plies pressed, with valleys between them at {valley} of a ply's reach")?
+            }
+        }
         if *verdict == Verdict::Jammed {
             write!(f, "; threads are as dense as their fibres allow")?;
             let lacking = 100.0 * (1.0 - clearance / CLEAR);

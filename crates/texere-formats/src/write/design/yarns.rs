@@ -255,7 +255,13 @@ fn section_keys(name: &str, section: &Section) -> Result<Option<String>, WriteEr
     let number = |value: f32| format!("{:?}", nearest(value.into(), |read| read as f32 == value).0);
     let shape = match section {
         Section::Circle => return Ok(None),
-        Section::Lobed { plies } => return Ok(Some(format!("plies = {plies}"))),
+        Section::Lobed { plies, valley } => {
+            let valley = match *section == Section::plied(*plies) {
+                true => String::new(),
+                false => format!("\nvalley = {}", number(*valley)),
+            };
+            return Ok(Some(format!("plies = {plies}{valley}")));
+        }
         Section::Ellipse { aspect } => format!("\"ellipse\", aspect = {}", number(*aspect)),
         Section::Lenticular { aspect, distortion } => {
             format!("\"lenticular\", aspect = {}, distortion = {}", number(*aspect), number(*distortion))

@@ -40,18 +40,20 @@ fn main() -> ExitCode {
         Some("check") => {
             check(&mut steps);
             install(&mut steps, "valgrind", &["valgrind"]);
-            vulkan::install(&mut steps);
-            install(&mut steps, "compilers", &hosts::PACKAGES);
+            install_for_programs(&mut steps);
             // Counting and most programs keep one core busy.
             steps.beside(
                 |steps| {
                     instructions::check(steps);
                     demo::demo(steps, Build::Tested);
                 },
-                |steps| programs(steps, Build::Tested),
+                |steps| hosts::check(steps, Build::Tested),
             );
         }
-        Some("hosts") => programs(&mut steps, Build::Released),
+        Some("hosts") => {
+            install_for_programs(&mut steps);
+            hosts::check(&mut steps, Build::Released);
+        }
         Some("python") => python(&mut steps, Build::Released),
         Some("demo") => demo::demo(&mut steps, Build::Released),
         Some("gallery") => demo::gallery(&mut steps),
@@ -178,11 +180,11 @@ fn features(steps: &mut Steps) {
     }
 }
 
-/// Builds and runs programs in other languages that link the library. One of them makes a picture.
-fn programs(steps: &mut Steps, build: Build) {
+/// Installs what programs in other languages that link the library need. One of them makes a
+/// picture.
+fn install_for_programs(steps: &mut Steps) {
     vulkan::install(steps);
     install(steps, "compilers", &hosts::PACKAGES);
-    hosts::check(steps, build);
 }
 
 /// Runs the checks that are no tests.

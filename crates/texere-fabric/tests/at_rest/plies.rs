@@ -11,7 +11,7 @@ use texere_fabric::{
 };
 
 use crate::surfaces::Surfaces;
-use crate::{at_rest, diameter, plain};
+use crate::{at_rest, diameter, plain, twill};
 
 /// Cotton cloth of threads with `section`, of tex and threads a centimetre of warp and weft, and
 /// the least of its sections that fibres fill.
@@ -28,10 +28,6 @@ fn cotton(
     };
     let drawdown = Drawdown::from_fn(12, 12, up).unwrap();
     Woven::new(drawdown, threads(ends), threads(picks), vec![Material::default()], vec![section]).unwrap()
-}
-
-fn twill(end: usize, pick: usize) -> bool {
-    !(end + 4 * 12 - pick).is_multiple_of(4)
 }
 
 /// Sheeting, duck and denim, from open to so dense that single yarns are as dense as fibres allow.
@@ -70,17 +66,14 @@ fn plied_threads_rest_near_single_ones() {
 #[test]
 fn open_cloth_of_solid_threads_keeps_its_plies() {
     let open = cotton(plain, [(30.0, 12.0); 2], 650.0, Section::plied(2));
-    let solid =
-        |threads: &[Thread]| threads.iter().map(|thread| Thread { least_area: 1.0, ..*thread }).collect();
-    let (warp, weft): (Vec<_>, Vec<_>) = (solid(open.warp()), solid(open.weft()));
-    let cloth =
-        Woven::new(open.drawdown().clone(), warp, weft, open.materials().to_vec(), open.sections().to_vec());
+    let solid = |thread: &Thread| Thread { least_area: 1.0, ..*thread };
+    let [warp, weft] = [open.warp(), open.weft()].map(|threads| threads.iter().map(solid).collect());
+    let cloth = open.with_threads(warp, weft, open.materials().to_vec(), open.sections().to_vec());
     assert_eq!(at_rest(&cloth.unwrap()).valley, Some(0.85));
 
-    let monofilament = |thread: &Thread| Thread { least_area: 1.0, section: 1, ..*thread };
-    let (warp, weft) = (open.warp().to_vec(), open.weft().iter().map(monofilament).collect());
+    let weft = open.weft().iter().map(|thread| Thread { section: 1, ..solid(thread) }).collect();
     let sections = vec![Section::plied(2), Section::Circle];
-    let cloth = Woven::new(open.drawdown().clone(), warp, weft, open.materials().to_vec(), sections);
+    let cloth = open.with_threads(open.warp().to_vec(), weft, open.materials().to_vec(), sections);
     let rest = at_rest(&cloth.unwrap());
     assert_eq!(rest.valley, Some(0.85));
     assert_eq!(rest.yarns.layout().sections()[1], Section::Circle);

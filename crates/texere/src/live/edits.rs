@@ -230,7 +230,7 @@ impl Live {
                 changed.push((yarn, SetYarn { what: *what, points, sources, ups, before }));
             }
         }
-        let sections = (layout.sections() != self.mesh.plan().layout().sections()).then(|| layout.sections());
+        let sections = (layout.sections() != own.sections()).then(|| layout.sections());
         self.set_all(changed, sections)
     }
 

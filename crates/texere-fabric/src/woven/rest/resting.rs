@@ -114,13 +114,11 @@ impl RestingRepeat {
     /// Whether a thread with plies has lost area at some crossing, and is as dense there as its
     /// fibres allow.
     pub(super) fn are_plies_solid(&self, cloth: &Woven) -> bool {
-        let is_solid = |number: usize, set: Set| {
+        self.threads().any(|(number, set)| {
             let (thread, kept) = self.kept(cloth, number, set);
-            let section = &cloth.sections()[thread.section as usize];
-            let lost = kept < LOST.min(SOLID * thread.least_area);
-            lost && matches!(section, Section::Lobed { .. })
-        };
-        (0..self.drawn.len()).any(|number| Set::BOTH.into_iter().any(|set| is_solid(number, set)))
+            let is_plied = matches!(cloth.sections()[thread.section as usize], Section::Lobed { .. });
+            is_plied && kept < LOST && self.is_solid_at(number, set)
+        })
     }
 
     /// The least product of half width and half height that a thread of `set` keeps at a crossing
@@ -131,11 +129,18 @@ impl RestingRepeat {
 
     /// Whether a thread of the repeat is as dense at some crossing as its fibres allow.
     pub(super) fn is_solid(&self) -> bool {
-        let is_solid = |(number, drawn): (usize, &[[f32; 2]; 2])| {
-            let area = |set: Set| drawn[set as usize][0] * drawn[set as usize][1];
-            Set::BOTH.into_iter().any(|set| area(set) < SOLID * self.least(number, set))
-        };
-        self.drawn.iter().enumerate().any(is_solid)
+        self.threads().any(|(number, set)| self.is_solid_at(number, set))
+    }
+
+    /// Whether the thread of a set is as dense at a crossing of the repeat as its fibres allow.
+    fn is_solid_at(&self, number: usize, set: Set) -> bool {
+        let [width, height] = self.drawn[number][set as usize];
+        width * height < SOLID * self.least(number, set)
+    }
+
+    /// The crossings of the repeat, each once for either of its threads.
+    fn threads(&self) -> impl Iterator<Item = (usize, Set)> {
+        (0..self.drawn.len()).flat_map(|number| Set::BOTH.map(|set| (number, set)))
     }
 
     /// Number, within the repeat, of a crossing of the cloth.

@@ -10,7 +10,8 @@ use crate::ContactError;
 
 /// A tube is *wrung* if its width between two rings falls below this share of its width on the
 /// rings. The two rings are then turned against one another by more than 120 degrees, two thirds of
-/// the turn that leaves no width.
+/// the turn that leaves no width. With twice the value, `a_knit_is_told_as_woven_cloth_is` is red;
+/// with half, no test is.
 pub const WRUNG: f64 = 0.5;
 
 /// Quality of a fabric's tubes between neighbouring rings of a mesh.

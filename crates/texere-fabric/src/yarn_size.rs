@@ -116,7 +116,8 @@ pub fn turns_per_m(twist: f32) -> f64 {
 /// and the yarn's axis.
 ///
 /// **Source**: Peirce's diameter, and a twist factor of 3,600 turns/m √tex, as of ring-spun cotton
-/// for weaving.
+/// for weaving. With half the value, and with twice, `filament_covers_and_hard_twist_stays_round`
+/// is red.
 const ORDINARY_TWIST: f32 = 0.42;
 
 /// The firmness of filament without twist, and that of the hardest twist. With 0.03, the threads of

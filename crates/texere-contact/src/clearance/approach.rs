@@ -8,7 +8,8 @@ use super::interval::{At, Cubic};
 use super::passing::LEVEL;
 use super::support::Support;
 
-/// How near to a knot a parameter counts as at the knot, in intervals.
+/// How near to a knot a parameter counts as at the knot, in intervals. With half the value, and
+/// with twice, no test is red.
 const AT_KNOT: f64 = 1e-6;
 
 /// How far refinement may leave an interval before the approach belongs to another one, in
@@ -16,24 +17,27 @@ const AT_KNOT: f64 = 1e-6;
 /// twice, no test is.
 pub(super) const MARGIN: f64 = 0.05;
 
-/// The most steps of one refinement.
+/// The most steps of one refinement. With half the value, and with twice, no test is red.
 pub(super) const STEPS: usize = 40;
 
 /// The longest step, in intervals. With half the value, and with twice, no test is red.
 pub(super) const STRIDE: f64 = 0.25;
 
 /// The length of a step that ends refinement, in intervals. The place is then off by about as much,
-/// which changes the ratio only by the square of that length.
+/// which changes the ratio only by the square of that length. With half the value, and with twice,
+/// no test is red.
 pub(super) const SHORT: f64 = 1e-5;
 
-/// The length of a step that counts as none, in intervals.
+/// The length of a step that counts as none, in intervals. With half the value, and with twice, no
+/// test is red.
 const CLOSE: f64 = 1e-7;
 
 /// The least curvature of an approach that counts as the only one nearby. The curvature of an
 /// approach of two straight lines is 1 minus the cosine of the angle between them.
 ///
 /// At 0.06 `it_agrees_with_brute_force` fails in one of 30,000 tangles: the search missed an
-/// approach whose ratio was 0.0024 lower, in a valley of curvature below 0.1.
+/// approach whose ratio was 0.0024 lower, in a valley of curvature below 0.1. With half the value,
+/// and with twice, no test is red.
 const VALLEY: f64 = 0.2;
 
 /// One interval of a yarn, with its section and its ends.

@@ -36,7 +36,8 @@ const POINTS: usize = 48;
 const POINTS_LOBED: usize = 96;
 
 /// The step along the yarn between sections that are tried, as a share of the sum of both yarns'
-/// least half widths or heights.
+/// least half widths or heights. With half the value, `plied_threads_in_their_own_room_stay_clear`
+/// is red; with twice, no test is.
 const STEP: f64 = 0.25;
 
 /// The step along the yarn between sections that are tried, in turns of either yarn's roll. The
@@ -52,7 +53,8 @@ const RELIEF: f64 = 1e-3;
 const SECTIONS_MAX: usize = 4096;
 
 /// A descent starts at a place if the growth there exceeds the least growth so far by no more than
-/// this share. A lobe may rise by as much between two places that are tried.
+/// this share. A lobe may rise by as much between two places that are tried. With twice the value,
+/// `the_clearance_is_that_of_surfaces` is red; with half, no test is.
 const SLACK: f64 = 0.015;
 
 /// Once this many starts and ends of descents are known, [`SLACK`] no longer counts. From then on a
@@ -65,7 +67,8 @@ const PLACES: usize = 16;
 const DEEP: f64 = 0.25;
 
 /// A point inside a bent yarn may lie up to this many times as far from the yarn's tangent as the
-/// surface does.
+/// surface does. With half the value, `plied_threads_in_their_own_room_stay_clear` is red; with
+/// twice, no test is.
 const BENT: f64 = 1.3;
 
 /// The largest error, in intervals, of the tangent's estimate of the place level with a point. With
@@ -76,7 +79,8 @@ const SLANT: f64 = 0.2;
 /// with a point near it. With half the value, and with twice, no test is red.
 const STRAIGHT: f64 = 0.7;
 
-/// The distance up to which two places of the thicker yarn count as one, in intervals.
+/// The distance up to which two places of the thicker yarn count as one, in intervals. With half
+/// the value, and with twice, no test is red.
 const SAME: f64 = 1e-3;
 
 /// The length of a descent's last steps, as a share of its first steps. With half the value, and
@@ -91,7 +95,7 @@ const OFF: f64 = 0.1;
 /// with twice, no test is red.
 const OFF_ENDED: f64 = 0.01;
 
-/// The accuracy of a growth.
+/// The accuracy of a growth. With half the value, and with twice, no test is red.
 const EXACT: f64 = 2e-5;
 
 /// A touch of two surfaces: the parameters of both, and the growth.

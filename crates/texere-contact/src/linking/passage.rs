@@ -2,7 +2,8 @@
 
 use texere_core::YarnPlace;
 
-/// The least change of the linking integral of two windows that counts as a passage.
+/// The least change of the linking integral of two windows that counts as a passage. With twice the
+/// value, `the_smallest_repeat_of_a_weave_is_compared` is red; with half, no test is.
 pub const LINKING_CHANGE: f64 = 0.6;
 
 /// Control intervals of a window, if they reach [`WINDOW_REACH`] diameters each way.
@@ -10,7 +11,8 @@ pub const LINKING_CHANGE: f64 = 0.6;
 /// Tried on cloth with 4 control points an interlacing, and 8, 9 and 12 a loop: windows of 5 to 11
 /// intervals show every passage. In shorter windows the change is too small, and windows of 13 miss
 /// stitches of 9-point loops. If loops have more than 24 control points, the reach in diameters
-/// decides.
+/// decides. With half the value, `rings_that_come_apart_are_told` is red; with twice,
+/// `the_smallest_repeat_of_a_weave_is_compared`.
 pub(super) const WINDOW_INTERVALS: usize = 8;
 
 /// The least reach of a window each way from its middle, in diameters: the mean diameter of both
@@ -18,7 +20,7 @@ pub(super) const WINDOW_INTERVALS: usize = 8;
 ///
 /// The reach counts if control points are dense. With 3 diameters, dropped stitches of a loose knit
 /// change the integral by only 0.6, and with 5 diameters by 0.85, whether a loop has 12 control
-/// points or 96.
+/// points or 96. With half the value, and with twice, `a_dropped_stitch_is_told` is red.
 pub(super) const WINDOW_REACH: f64 = 5.0;
 
 /// The most control intervals that are tested against one interval in a cell of the search. Cloth

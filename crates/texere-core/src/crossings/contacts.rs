@@ -5,6 +5,8 @@ use super::passage::Opening;
 use super::{CrossingBlock, Set, Site, ThreadState};
 
 /// The distance by which threads are kept apart, in units, because penalties give way a little.
+/// With half the value, `turns_do_not_fold` is red; with twice,
+/// `plied_threads_rest_near_single_ones`.
 pub const MARGIN: f32 = 0.006;
 
 /// The distance, in units, below which threads that do not touch yet make each other's steps
@@ -22,7 +24,8 @@ pub const NEAR: f32 = 0.02;
 pub const TOUCH: f32 = 100.0;
 
 /// The slope of a layer's thread, divided by that of the straight line between two crossings. The
-/// thread is steeper because it bends where it binds.
+/// thread is steeper because it bends where it binds. With half the value, and with twice,
+/// `layers_lie_on_one_another` is red.
 pub const STEEPER: f32 = 1.4;
 
 /// The contact of both threads of a crossing: one lies on top of the other. Threads that bend round

@@ -3,7 +3,8 @@
 /// The most levels of a set.
 pub(super) const LEVELS_MAX: u8 = 8;
 
-/// The distance of levels at the start, in units.
+/// The distance of levels at the start, in units. With twice the value, `gradients_are_the_energys`
+/// is red; with half, no test is.
 const RISE: f32 = 1.5;
 
 /// The level on which a thread lies at a crossing, among the threads of its set. Threads of one

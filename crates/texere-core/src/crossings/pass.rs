@@ -1,6 +1,7 @@
 //! The settings of a pass: the growth of threads, and the hardness of penalties.
 
-/// Number of passes in which threads grow and penalties harden.
+/// Number of passes in which threads grow and penalties harden. With half the value,
+/// `turns_do_not_fold` is red; with twice, `crimp_and_thickness_follow_the_sett`.
 pub(super) const GROWING: u32 = 50;
 
 /// The share of their full area that threads have at first. With twice the value,

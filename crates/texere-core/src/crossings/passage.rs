@@ -1,14 +1,16 @@
 //! The passage of a thread that changes sides between two threads of the other set.
 
-/// Number of steps of Newton's method towards the best slope.
+/// Number of steps of Newton's method towards the best slope. With half the value,
+/// `gradients_are_the_energys` is red; with twice, no test is.
 pub const STEPS: u32 = 5;
 
 /// How much the room, as a function of the slope angle, must curve downwards for Newton's step to
 /// be used. It is a share of the distance between the ellipses' middles. If the room curves less,
-/// the step is the room's first derivative, divided by that distance.
+/// the step is the room's first derivative, divided by that distance. With twice the value,
+/// `gradients_are_the_energys` is red; with half, no test is.
 pub const CURVED: f32 = 0.1;
 
-/// The longest turn of one step, radians.
+/// The longest turn of one step, radians. With half the value, and with twice, no test is red.
 pub const TURN: f32 = 0.5;
 
 /// The straight passage of a thread over the first of two crossed threads and under the second, at

@@ -37,7 +37,8 @@ const LEAST_AREA: [f32; 2] = [0.0, 1.0];
 /// and devices would disagree. With 1.002, 3/1 twill at 1.04 times Ashenhurst's sett crimps in the
 /// weft, and a little closer or further apart in the warp (`crimp_and_thickness_follow_the_sett` of
 /// texere-fabric). With 1.02, square plain weave has 2 % more crimp in the warp than in the weft
-/// (`balanced_plain_weave_is_alike_both_ways`).
+/// (`balanced_plain_weave_is_alike_both_ways`). With half its difference to 1,
+/// `mirrored_cloth_rests_mirrored` is red; with twice, `stiff_threads_stay_straight`.
 const WEFT_TAUTER: f32 = 1.004;
 
 /// The largest height of a thread above or below the middle of the cloth, in units, for each level

@@ -12,7 +12,8 @@ use crate::backend::room;
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
 /// The ratio of width to thickness that a thread of ordinary twist tends to, if it is round when
-/// nothing presses it. Of a firmer thread the ratio is nearer to 1.
+/// nothing presses it. Of a firmer thread the ratio is nearer to 1. With half the value, and with
+/// twice, `straight_threads_stretch_no_further` is red.
 pub const ASPECT: f32 = 1.4;
 
 /// The weight of the difference from the ratio that a thread tends to. 0.5, 1.5, 3 and 6 were

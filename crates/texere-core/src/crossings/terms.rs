@@ -33,7 +33,7 @@ use super::here::{HEIGHT, Here, SHIFT, THICKNESS, WIDTH};
 use super::{CrossingBlock, CrossingState, CrossingsPass, CrossingsPlan, Row, Set, Site};
 
 /// The weight of second differences of heights, times the fourth power of a diameter over the third
-/// power of a pitch.
+/// power of a pitch. With half the value, and with twice, no test is red.
 pub const BEND: f32 = 1.0;
 /// The weight of second differences of shifts, in the same units as [`BEND`]. It is higher than
 /// [`BEND`] because skewed threads collide at corners that the passage term does not cover. 5, 20,
@@ -41,9 +41,11 @@ pub const BEND: f32 = 1.0;
 /// (`cloths_of_the_mills_come_to_rest` of texere-fabric).
 pub const SIDEWAYS_BEND: f32 = 120.0;
 
-/// The weight of first differences of heights, times the square of a diameter over a pitch.
+/// The weight of first differences of heights, times the square of a diameter over a pitch. With
+/// half the value, and with twice, no test is red.
 pub const TENSION: f32 = 1.0;
-/// The weight of first differences of shifts, in the same units as [`TENSION`].
+/// The weight of first differences of shifts, in the same units as [`TENSION`]. With twice the
+/// value, `layers_lie_on_one_another` is red; with half, no test is.
 pub const SIDEWAYS_TENSION: f32 = 0.1;
 
 /// The weight of heights, times the square of a diameter, by which a finish presses the cloth flat.
@@ -54,13 +56,15 @@ pub const PRESS: f32 = 0.6;
 /// 0, a 2/2 twill does not come to rest (`cloths_of_the_mills_come_to_rest`).
 pub const SMOOTH: f32 = 3.0;
 
-/// The weight of area that a section has lost.
+/// The weight of area that a section has lost. With half the value, and with twice,
+/// `plied_threads_rest_near_single_ones` is red.
 pub const AREA_LOSS: f32 = 6.0;
 /// The weight of area that a section lacks to its least area, as a multiple of the weight of
 /// penalties, so that contacts give way before fibres do. 1, 3 and 10 were tried, and differ
 /// little.
 pub const SOLID: f32 = 10.0;
-/// The weight of area that a section has gained.
+/// The weight of area that a section has gained. With half the value, `turns_do_not_fold` is red;
+/// with twice, `layers_lie_on_one_another`.
 pub const AREA_GAIN: f32 = 100.0;
 
 impl CrossingsPlan {

@@ -15,19 +15,21 @@ use crate::work_watch::WorkWatch;
 /// the yarns of lace, which pierce one another at the start, are pushed through one another.
 const GROWTHS: [f64; 5] = [0.3, 0.5, 0.7, 0.85, 1.0];
 
-/// The most steps at each share of growth.
+/// The most steps at each share of growth. With half the value, and with twice, no test is red.
 const GROWTH_STEPS: u32 = 60;
 
-/// The largest force at rest, as a share of the largest force that presses on an interval.
+/// The largest force at rest, as a share of the largest force that presses on an interval. With
+/// half the value, and with twice, no test is red.
 const BALANCED: f64 = 1e-3;
 
 /// The least force that others are compared with, as a share of the force that bends a yarn over
 /// the radius of its core. Yarns in a knit press with some hundredths of that force. It lets yarns
-/// that touch nowhere come to rest.
+/// that touch nowhere come to rest. With half the value, and with twice, no test is red.
 const FAINT: f64 = 1e-3;
 
 /// The longest step, as a share of the radius that the thinnest core has grown to. If steps are as
-/// long while yarns grow as later, net stays as narrow as its needles.
+/// long while yarns grow as later, net stays as narrow as its needles. With half the value, and
+/// with twice, no test is red.
 const STEP: f64 = 0.2;
 
 /// The number of steps after which the stiffness of yarns is worked out anew. With 5, lace takes a
@@ -38,11 +40,16 @@ const STIFFENED: u32 = 10;
 /// takes twice as many steps to rest; with 0.01, jersey does.
 const STRAINED: f64 = 0.1;
 
-/// The share of the fall of energy that the slope promises which a step must reach.
+/// The share of the fall of energy that the slope promises which a step must reach. With half the
+/// value, and with twice, no test is red.
 const FALL: f64 = 1e-4;
 
-/// The factor of a step that did not let the energy fall enough, and how often it is tried.
+/// The factor of a step that did not let the energy fall enough. With half the value, and with
+/// twice, no test is red.
 const SHORTER: f64 = 0.4;
+
+/// The most lengths of a step that are tried, the first of them its full length. With half the
+/// value, and with twice, no test is red.
 const TRIES: u32 = 12;
 
 /// The result of a relaxation.

@@ -57,9 +57,11 @@ pub const PARALLEL: f32 = 1e-6;
 /// squared velocity.
 pub const STIFF: f32 = 0.2;
 /// The least determinant in Newton's method, as a share of the product of both second derivatives.
+/// With twice the value, `a_settled_repeat_fits_its_copies` is red; with half, no test is.
 pub const SKEW: f32 = 0.05;
 
-/// The distance up to which two places count as one, mm.
+/// The distance up to which two places count as one, mm. With half the value, and with twice, no
+/// test is red.
 pub const ONE_PLACE: f32 = 1e-9;
 
 /// The value clamped to between 0 and 1. -0 becomes 0, as it does in vector code.
@@ -70,11 +72,13 @@ pub(super) fn share(value: f32) -> f32 {
 }
 
 /// The distance of two chords up to which the nearest places on the splines are worked out, as a
-/// multiple of the distance at which the two yarns touch.
+/// multiple of the distance at which the two yarns touch. With half its difference to 1,
+/// `copies_of_a_repeat_that_settled_are_clear` is red; with twice, no test is.
 pub const NEAR: f32 = 1.1;
 
 /// The factor by which yarns count as thicker while they settle, so that they are clear when
-/// settling ends.
+/// settling ends. With half its difference to 1, and with twice, `a_settled_repeat_fits_its_copies`
+/// is red.
 pub const MARGIN: f32 = 1.002;
 
 /// The nearest places of two intervals.

@@ -17,13 +17,17 @@ pub enum Length {
 }
 
 /// The least length of an interval whose length is free, as a share of its length at the start.
+/// With half the value, `a_whole_piece_settles_with_its_edges_held` is red; with twice,
+/// `a_settled_repeat_fits_its_copies`.
 pub const FREE_LEAST: f32 = 0.8;
 /// The largest length of an interval whose length is free, as a share of its length at the start.
+/// With half the value, `a_settled_repeat_fits_its_copies` is red; with twice, no test is.
 pub const FREE_MOST: f32 = 1.15;
 
 /// The share of a difference of lengths that a free interval makes up in a pass. The difference is
 /// that between the length that the interval aims for and the mean of its own and its neighbours'
-/// arc lengths. Without this damping, equalising together with momentum diverges.
+/// arc lengths. Without this damping, equalising together with momentum diverges. With half the
+/// value, and with twice, `a_settled_repeat_fits_its_copies` is red.
 pub const FREED: f32 = 0.05;
 
 /// The length that an interval aims for after a pass with free lengths. `length` is what it aimed

@@ -34,10 +34,12 @@ const EASES: [f32; 2] = [0.3, 0.6];
 /// with twice, `a_settled_repeat_fits_its_copies` is red.
 const JITTER: f32 = 0.01;
 
-/// The distance, divided by the sum of both reaches, from which on yarns count as clear.
+/// The distance, divided by the sum of both reaches, from which on yarns count as clear. With twice
+/// its difference to 1, `whole_settlings_end_in_the_same_bits` is red; with half, no test is.
 const CLEAR: f32 = 0.995;
 
-/// The least radius of curvature at rest, as a share of [`BEND_RADIUS`].
+/// The least radius of curvature at rest, as a share of [`BEND_RADIUS`]. With half its difference
+/// to 1, and with twice, no test is red.
 const BENT: f32 = 0.99;
 
 /// The largest difference at rest between an interval's length and the length that it aims for, as

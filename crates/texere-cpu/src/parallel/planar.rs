@@ -1,10 +1,10 @@
-//! A test on control points that finds yarns along which every step of the frame is zero. A step is
-//! the turn of a section from one ring to the next.
+//! A test on control points that finds stretches of yarn along which the frame turns no section
+//! from one ring to the next.
 //!
 //! Most woven threads keep to a plane of constant x, or of constant y, and never turn back in it.
 //! The sides of their frames then lie along the x axis, or along the y axis, and the products of
-//! sides with chords and tangents are zero. Each step of a rotation minimising frame is therefore
-//! zero to the bit.
+//! sides with chords and tangents are zero. The turn of a rotation minimising frame from ring to
+//! ring is therefore zero to the bit.
 
 use texere_core::definitions::NO_LENGTH;
 
@@ -12,7 +12,7 @@ use super::rings::{Source, Stretch};
 use super::simd::{Floats, Mask, Simd, difference};
 use super::spline::{neighbours, xyz};
 
-/// The least velocity along the plane that counts as going on, as a share of the interval's extent.
+/// The least velocity along x or y that counts as going on, as a share of the interval's extent.
 /// The extent is the sum, over all axes, of the distances from the interval's start to the three
 /// other points. The share is far above the rounding of velocities (some 1e-5), at which a yarn
 /// could seem to turn back. It is also far above what counts as standing still or as vertical
@@ -22,8 +22,8 @@ const ONWARD: f32 = 1e-3;
 /// The largest extent that is tested, mm. Its square is well within the range of `f32`.
 const EXTENT_MAX: f32 = 1e15;
 
-/// Whether the test shows that the frame's part of every step between the rings of `stretch` is
-/// zero.
+/// Whether the test shows that the frame adds nothing to any turn between the rings of `stretch`.
+/// Twist may.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));

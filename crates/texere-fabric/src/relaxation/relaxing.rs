@@ -19,7 +19,8 @@ pub(super) const STEPS: u32 = 3000;
 
 /// The longest way of a control point, in radii of the thinnest yarn, after which linking is
 /// compared. Over longer ways more pairs of yarns have to be compared, and windows of yarn that
-/// have bent much look as if they had passed through one another.
+/// have bent much look as if they had passed through one another. With half the value, and with
+/// twice, no test is red.
 const COMPARED: f64 = 0.5;
 
 /// Asks how to go on after a number of steps.

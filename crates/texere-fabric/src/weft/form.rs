@@ -4,7 +4,7 @@
 //! each part on the side, face or back, on which the part has to pass other loops.
 //!
 //! ```text
-//! half a loop, from foot to head (Form::half):
+//! half a loop, from foot to shoulder (Form::half), and the head between both halves:
 //!     foot       behind the upper legs of all loops that this one is drawn through
 //!     lower leg  on the side to which this loop is drawn, which its bed says
 //!     leg        one node; two where the lower and the upper leg lie on different sides
@@ -46,6 +46,7 @@ const LEANS: f64 = 0.1;
 const ARCH_LEG: Node = Node { up: 0.4, ..LEG };
 
 /// The share of the lift over crossing legs that the lower and the upper end of a leg have. By eye.
+/// With half the value, and with twice, no test is red.
 const LIFTED_ENDS: f64 = 0.6;
 
 /// The lower and the upper node of a leg that changes sides: their distance from the needle, in

@@ -15,6 +15,7 @@
 // - `shape.rs` has the plain loop: a table of its feet, legs and head.
 // - `form.rs` bends that table into any other loop: purl, tuck, held, moved, dropped.
 // - `path.rs` follows a yarn from loop to loop, and places the arcs and turns between loops.
+// - `pen.rs` takes the points of each cell; with even cells it lays new ones along their curve.
 // - `cells.rs` lists the needles that a yarn comes to.
 // - `layers.rs` says which loops and yarns lie over one another at a needle.
 

@@ -63,7 +63,11 @@ pub(super) const ARC: Node = Node { up: 0.0, z: -0.84 };
 /// the shoulders, `loops_are_as_deep_as_they_must_be` is red. It is green with 0.22 and 0.28 at the
 /// legs.
 pub(super) const FOOT_WIDE: f64 = 0.19;
+/// Half the width at the middle of the legs. With half the value, and with twice,
+/// `loops_are_as_deep_as_they_must_be` is red.
 pub(super) const LEG_WIDE: f64 = 0.25;
+/// Half the width at the shoulders. With half the value, and with twice,
+/// `loops_are_as_deep_as_they_must_be` is red.
 pub(super) const SHOULDER_WIDE: f64 = 0.31;
 
 /// A node of half a loop: its height and its z.

@@ -1,8 +1,8 @@
 //! Pulls of an interval's own bends and length, a vector of intervals at a time.
 
 use texere_core::settling::{
-    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, Interval, Pass, Pull, SHORT, SOFT_BEND,
-    SettlingPlan, bends, tag,
+    BEND_MARGIN, BEND_PARTS, BEND_RADIUS, BLOCK_BEND, Form, GAUSS, GAUSS_WEIGHTS, Interval, Pass, Pull,
+    SHORT, SOFT_BEND, SettlingPlan, bends, tag,
 };
 
 use super::curves::{Curve, acceleration, reach, velocity};
@@ -93,7 +93,8 @@ impl Own<'_> {
             }
         }
         let ends = curve.speed(simd, GAUSS[0]) + curve.speed(simd, GAUSS[2]);
-        let arc = ends * simd.splat(5.0 / 18.0) + curve.speed(simd, GAUSS[1]) * simd.splat(8.0 / 18.0);
+        let arc =
+            ends * simd.splat(GAUSS_WEIGHTS[0]) + curve.speed(simd, GAUSS[1]) * simd.splat(GAUSS_WEIGHTS[1]);
         let [c1, c2, c3] = curve.terms;
         let chord = plus(plus(c1, c2), c3);
         let span = dot(chord, chord).sqrt();

@@ -1,7 +1,7 @@
 //! Pairs of chords in lanes: the nearest image of the second chord, and the places where the two
 //! chords come nearest to one another. An image is a copy of the chord in some repeat of the cloth.
 
-use texere_core::settling::{SHORT, SettlingPlan};
+use texere_core::settling::{PARALLEL, SHORT, SettlingPlan};
 
 use super::tables::ChordRow;
 use crate::parallel::simd::{
@@ -68,7 +68,7 @@ impl<S: Simd> Nearest<S> {
         let (e2, f) = (dot(e, e).max(short), -dot(e, between));
         let b = dot(d, e);
         let determinant = a * e2 - b * b;
-        let slanted = (simd.splat(1e-6) * (a * e2)).less(determinant);
+        let slanted = (simd.splat(PARALLEL) * (a * e2)).less(determinant);
         let s = slanted.select(share(simd, (b * f - c * e2) / determinant), half);
         let t = share(simd, (b * s + f) / e2);
         let s = share(simd, (b * t - c) / a);

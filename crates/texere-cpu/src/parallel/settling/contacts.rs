@@ -6,7 +6,9 @@
 
 use std::ops::Range;
 
-use texere_core::settling::{CONTACT, Form, MARGIN, NEAR, Pass, SHORT, STRIDE, SettlingPlan, tag};
+use texere_core::settling::{
+    CONTACT, Form, MARGIN, NEAR, ONE_PLACE, Pass, SHORT, SKEW, STIFF, STRIDE, SettlingPlan, tag,
+};
 
 use super::chords::{Chords, Images, Nearest};
 use super::curves::{Curve, weights};
@@ -205,13 +207,13 @@ fn refined<S: Simd>(
         -dot(start.way, curves[0].acceleration(simd, at[0])),
         dot(start.way, curves[1].acceleration(simd, at[1])),
     ];
-    let (fifth, short) = (simd.splat(0.2), simd.splat(SHORT));
+    let (stiff, short) = (simd.splat(STIFF), simd.splat(SHORT));
     let h = [
-        (squares[0] + bends[0]).max(fifth * squares[0]).max(short),
-        (squares[1] + bends[1]).max(fifth * squares[1]).max(short),
+        (squares[0] + bends[0]).max(stiff * squares[0]).max(short),
+        (squares[1] + bends[1]).max(stiff * squares[1]).max(short),
     ];
     let mixed = -dot(velocities[0], velocities[1]);
-    let determinant = (h[0] * h[1] - mixed * mixed).max(simd.splat(0.05) * (h[0] * h[1]));
+    let determinant = (h[0] * h[1] - mixed * mixed).max(simd.splat(SKEW) * (h[0] * h[1]));
     let step = [
         (mixed * slopes[1] - h[1] * slopes[0]) / determinant,
         (mixed * slopes[0] - h[0] * slopes[1]) / determinant,
@@ -270,7 +272,7 @@ impl Touches {
         // `Contact::direction` of the core.
         let [a, b] = velocities;
         let square = [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
-        let way = select(simd.splat(1e-9).less(distance), way, square);
+        let way = select(simd.splat(ONE_PLACE).less(distance), way, square);
         let length = dot(way, way);
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
         let direction = select(zero.less(length), scale(way, one / length.sqrt()), [zero, zero, one]);

@@ -1,6 +1,9 @@
 //! The steps of control points, a vector of them at a time.
 
-use texere_core::settling::{BEND, Form, INERTIA, Pass, Place, SettlingPlan, SettlingSeen, moves};
+use texere_core::settling::{
+    BEND, BENDS_MIN, CONTACTS_MIN, CROSSING, CROSSING_SHARE, Form, INERTIA, Pass, Place, STEP_DIAMETER,
+    STEP_NEAR, SettlingPlan, SettlingSeen, moves,
+};
 
 use super::tables::{FRONT, PullRow};
 use crate::parallel::simd::{
@@ -97,17 +100,17 @@ impl Gather<'_> {
             step
         } else {
             let [cx, cy, cz, contacts, bx, by, bz, bends, ..] = sums;
-            let room = (clearance / simd.splat(pass.growth) - simd.splat(0.3)) * simd.splat(2.5);
-            let apart = share(simd, room);
-            let bend = scale([bx, by, bz], simd.splat(BEND) / bends.max(simd.splat(0.3)));
+            let room = clearance / simd.splat(pass.growth) - simd.splat(CROSSING);
+            let apart = share(simd, room * simd.splat(CROSSING_SHARE));
+            let bend = scale([bx, by, bz], simd.splat(BEND) / bends.max(simd.splat(BENDS_MIN)));
             let pulls = PullRow::rows(&self.pulls[FRONT + place - 1..]);
             let [bx, by, bz, _] = simd.rows(pulls, &IN_TURN, PullRow::LENGTH);
             let [x, y, z, _] = simd.rows(&pulls[1..], &IN_TURN, PullRow::LENGTH);
             let mut others = plus(plus(bend, difference([x, y, z], [bx, by, bz])), on);
             others[2] = others[2] + press;
-            plus(scale([cx, cy, cz], one / contacts.max(simd.splat(0.64))), scale(others, apart))
+            plus(scale([cx, cy, cz], one / contacts.max(simd.splat(CONTACTS_MIN))), scale(others, apart))
         };
-        let most = (simd.splat(0.2) * near).min(simd.splat(0.1) * diameter);
+        let most = (simd.splat(STEP_NEAR) * near).min(simd.splat(STEP_DIAMETER) * diameter);
         let length = dot(step, step).sqrt();
         select(most.less(length), scale(step, most / length), step)
     }

@@ -11,17 +11,21 @@ use texere_core::{Origin, Settings, YarnPlace, Yarns};
 use super::resting::RestingRepeat;
 use crate::{Drawdown, FabricError, NO_CROSSING, Woven};
 
-/// The clearance that every pair of surfaces is brought to.
+/// The clearance that every pair of surfaces is brought to. With half its difference to 1,
+/// `turns_do_not_fold` is red; with twice, `neighbours_give_way_to_a_thick_end`.
 const WANTED: f64 = 0.988;
 
-/// The largest clearance of the contacts that are looked for.
+/// The largest clearance of the contacts that are looked for. With twice its difference to 1,
+/// `a_woven_structure_comes_to_rest` is red; with half, no test is.
 const NEAR: f64 = 0.99;
 
-/// The clearance with which the rounds may end.
+/// The clearance with which the rounds may end. With half its difference to 1, `turns_do_not_fold`
+/// is red; with twice, `neighbours_give_way_to_a_thick_end`.
 const ENOUGH: f64 = 0.986;
 
 /// The radius that every bend is brought to, as a multiple of the distance by which the thread
-/// reaches into the bend.
+/// reaches into the bend. With half its difference to 1, and with twice, `turns_do_not_fold` is
+/// red.
 const BENDS_WANTED: f64 = 1.003;
 
 /// The most rounds in which threads are made thinner. With 10, weft-backed cloth still folds

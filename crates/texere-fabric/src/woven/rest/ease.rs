@@ -8,11 +8,13 @@ use super::stop::{CHANGE_POINTS, Stop};
 /// `cloths_of_the_mills_come_to_rest` of `at_rest` is red.
 const EASINGS: usize = 40;
 
-/// The step of a point in a round, as a share of its second difference in height.
+/// The step of a point in a round, as a share of its second difference in height. With half the
+/// value, and with twice, no test is red.
 const MOVED: f64 = 0.1;
 
 /// A bend needs no easing if its radius is at least this multiple of the distance by which the
-/// thread reaches into it.
+/// thread reaches into it. With half its difference to 1, `cloths_of_the_mills_come_to_rest` is
+/// red; with twice, no test is.
 const WIDE: f64 = 1.02;
 
 /// Moves the stops between two crossings up or down where the spline through them would bend more

@@ -23,6 +23,7 @@ use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Thread, Woven, WovenErr
 const LOST: f32 = 0.99;
 
 /// The area of a section up to which the section counts as solid, as a multiple of its least area.
+/// With half its difference to 1, and with twice, `plied_threads_rest_near_single_ones` is red.
 const SOLID: f32 = 1.02;
 
 /// A repeat's crossings at rest, mm.
@@ -192,7 +193,8 @@ impl RestingRepeat {
 }
 
 /// Number of threads beyond either edge that are known, because the repeat goes on there. A thread
-/// bends round the next one that it meets beyond the edge.
+/// bends round the next one that it meets beyond the edge. With half the value, and with twice, no
+/// test is red.
 pub(super) const BEYOND: usize = 8;
 
 /// The places of one set of threads.

@@ -13,9 +13,9 @@ use crate::seen::{DEPTH_BYTES, MARKS, PLACE_BYTES};
 use crate::watch::Watch;
 use crate::{Camera, Quality, RenderError, Scene};
 
-/// What a picture shows in each pixel, row by row from the top. A pixel has the values of its first
-/// sample, which lies within half a pixel of the pixel's middle. [`Scene::seen_at`] takes the same
-/// sample.
+/// What a picture shows in each pixel, row by row from the top. A pixel has the values of one
+/// sample, which lies within half a pixel of the pixel's middle: the first sample of the screen
+/// pixel that holds the middle. [`Scene::seen_at`] takes the same sample.
 ///
 /// Where no yarn is seen, the yarn is [`Layers::NO_YARN`]. The depth is infinite there, and all
 /// other values are 0.
@@ -30,22 +30,25 @@ pub struct Layers {
     pub depth: Vec<f32>,
     /// The place on the yarn's surface, mm.
     pub position: Vec<[f32; 3]>,
-    /// The unit normal, out of the yarn. Where a yarn is cut open, the normal faces the eye.
+    /// The unit normal, out of the yarn. Where a yarn is cut open, the normal faces the eye, and on
+    /// caps it points out of the yarn's end.
     pub normal: Vec<[f32; 3]>,
     /// The direction of the yarn's fibres along its surface, of length 1, towards the yarn's end.
-    /// Fibres turn with the twist. Where a yarn is cut open, the tangent is equal to the normal.
+    /// Fibres turn with the twist. On caps, and where a yarn is cut open, the tangent is equal to
+    /// the normal.
     pub tangent: Vec<[f32; 3]>,
     /// The place on the yarn: the angle round it and the distance along it. The angle is in
     /// radians, and counted as in [`Attribute::angle`](texere_core::Attribute). The distance is in
     /// rings of the scene's mesh, in steps of an eighth of a ring, and begins again at 0 after
-    /// 8,192 rings. Both are 0 on single fibres and where a yarn is cut open.
+    /// 8,192 rings. Both are 0 on single fibres, on caps, and where a yarn is cut open.
     pub uv: Vec<[f32; 2]>,
 }
 
 /// The bytes of a sample's directions.
 const DIRECTION_BYTES: u64 = 8;
 
-/// The most bytes that are copied to the host at once: a few rows of the largest picture.
+/// The most bytes that are copied to the host at once: more than a hundred rows of a picture that
+/// is 16,384 screen pixels wide.
 const COPY_MOST: u64 = 64 << 20;
 
 /// The values of one pixel in all layers, in the order of the fields of [`Layers`].
@@ -164,13 +167,13 @@ impl Scene {
     }
 }
 
-/// The layout of a row of samples in the copy. A row has three parts: all places, then all
-/// directions, then all depths.
+/// The layout of a row of screen pixels in the copy, each with its first sample. A row has three
+/// parts: all places, then all directions, then all depths.
 #[derive(Debug, Clone, Copy)]
 struct Row {
-    /// The number of samples of a row.
+    /// The number of screen pixels of a row.
     large: u32,
-    /// The number of samples across a pixel of the picture.
+    /// The number of screen pixels across a pixel of the picture.
     supersampling: u32,
 }
 
@@ -179,7 +182,8 @@ impl Row {
         Self { large: screen.large()[0], supersampling: screen.large()[0] / screen.size()[0] }
     }
 
-    /// The byte of a row at which part number `part` begins. A sample of any part has whole words.
+    /// The byte of a row at which part number `part` begins. A sample's place and its directions
+    /// take two words of 4 bytes each, its depth one.
     fn start(&self, part: u64) -> u64 {
         u64::from(self.large) * [0, PLACE_BYTES, PLACE_BYTES + DIRECTION_BYTES][part as usize]
     }
@@ -205,7 +209,7 @@ impl Row {
         if depth >= 1.0 {
             return (Layers::NO_YARN, f32::INFINITY, [0.0; 3], [0.0; 3], [0.0; 3], [0.0; 2]);
         }
-        // The place of the sample, in pixels of the picture.
+        // The middle of the screen pixel, in pixels of the picture.
         let [right, down] =
             [x, y].map(|pixel| (f64::from(self.large_of(pixel)) + 0.5) / f64::from(self.supersampling));
         let [width, height] = camera.size().map(f64::from);

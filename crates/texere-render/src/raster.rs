@@ -8,7 +8,7 @@ use bytemuck::{Pod, Zeroable};
 use texere_core::backend::{BLOCK_RINGS, Chunk, Plan};
 use texere_core::{BackendError, ControlPoint, DeviceInfo, DeviceKind, Limits, Yarns};
 use texere_shaders::{Resource, grid};
-use texere_wgpu::{ChunkTables, LAUNCH_BLOCKS};
+use texere_wgpu::{ChunkTables, LAUNCH_BLOCKS, PARAMETERS};
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::rasteriser::{Keys, Kind, Pipelines, group};
@@ -85,7 +85,7 @@ impl Raster {
         yarns: &Yarns,
     ) -> Result<Self, BackendError> {
         let buffer = |what, bytes, usage| renderer.buffer(what, bytes, usage);
-        let sweep = || buffer("sweep", size_of::<Sweep>() as u64, BufferUsages::UNIFORM);
+        let sweep = || buffer("sweep", size_of::<Sweep>() as u64, PARAMETERS);
         let reach = plan.outlines().iter().map(|point| point.x.hypot(point.y)).fold(0.0, f32::max);
         Ok(Self {
             view,

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use texere_core::BackendError;
 use texere_gpu::{Language, prelude};
 use texere_shaders::picture;
-use texere_wgpu::{LONG_ATOMICS, WgpuBackend};
+use texere_wgpu::{LONG_ATOMICS, WgpuBackend, with_parameters};
 use wgpu::{BindGroupEntry, BindingResource};
 
 use crate::RenderError;
@@ -148,10 +148,10 @@ pub(crate) fn compiled_once<'a, T>(
     Ok(place.get_or_init(|| compiled))
 }
 
-pub(crate) fn module(device: &wgpu::Device, source: impl Into<Cow<'static, str>>) -> wgpu::ShaderModule {
+pub(crate) fn module(device: &wgpu::Device, source: impl Into<String>) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl(source.into()),
+        source: wgpu::ShaderSource::Wgsl(with_parameters(device, source.into()).into()),
     })
 }
 

@@ -9,7 +9,7 @@ use glam::Vec3;
 use texere_core::backend::{Chunk, Plan, Traffic};
 use texere_core::settling::Settler;
 use texere_core::{ControlPoint, DeviceKind, Limits, PlanError, Settings, Topology, Yarns};
-use texere_wgpu::WgpuSession;
+use texere_wgpu::{PARAMETERS, WgpuSession};
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::raster::Raster;
@@ -240,7 +240,7 @@ impl Renderer {
         })?;
         watch.ask()?;
         let buffer = |what, bytes: &[u8], usage| self.filled(what, bytes, usage);
-        let view = buffer("view", &[0; size_of::<ViewUniform>()], BufferUsages::UNIFORM)?;
+        let view = buffer("view", &[0; size_of::<ViewUniform>()], PARAMETERS)?;
         Ok(Scene {
             renderer: self.clone(),
             session,

@@ -11,6 +11,7 @@ use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 
 use crate::buffer::Buffer;
 use crate::gpu::Gpu;
+use crate::parameters::PARAMETERS;
 use crate::tables::Tables;
 
 /// The memory of one chunk at a time. A session has two of them, which its chunks use alternately.
@@ -46,7 +47,7 @@ impl ChunkMemory {
             window: 0..0,
             rows: 0,
             cap_vertices: 0,
-            params: buffer("parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            params: buffer("parameters", PARAMETERS | BufferUsages::COPY_DST)?,
             blocks: buffer("the block table", input)?,
             cap_rows: buffer("the cap table", input)?,
             rings: buffer("rings", output)?,

@@ -8,6 +8,7 @@ use wgpu::{
 };
 
 use crate::gpu::Gpu;
+use crate::parameters::{self, with_parameters};
 
 /// A shader, ready to run.
 #[derive(Debug)]
@@ -77,7 +78,7 @@ fn bind_group_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
             visibility: ShaderStages::COMPUTE,
             ty: BindingType::Buffer {
                 ty: match binding.access {
-                    Access::Uniform => BufferBindingType::Uniform,
+                    Access::Uniform => parameters::binding(&gpu.device),
                     Access::Read => BufferBindingType::Storage { read_only: true },
                     Access::Write => BufferBindingType::Storage { read_only: false },
                 },
@@ -123,7 +124,7 @@ fn pipeline(
 /// that do little but access memory.
 #[allow(unsafe_code, reason = "trusted shaders are the one thing that this crate needs it for")]
 fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderModule {
-    let source = prelude(Language::Wgsl, flattened) + shader.source;
+    let source = with_parameters(&gpu.device, prelude(Language::Wgsl, flattened) + shader.source);
     let descriptor = wgpu::ShaderModuleDescriptor {
         label: Some(shader.entry_point),
         source: wgpu::ShaderSource::Wgsl(source.into()),

@@ -11,6 +11,7 @@ use wgpu::BufferUsages;
 
 use crate::buffer::Buffer;
 use crate::gpu::Gpu;
+use crate::parameters::PARAMETERS;
 
 /// The plan's tables, which all chunks read, and the rolls.
 #[derive(Debug)]
@@ -49,7 +50,7 @@ impl Tables {
             outlines: table("outlines", bytemuck::cast_slice(plan.outlines()))?,
             pattern: table("the index pattern", bytemuck::cast_slice(&index_pattern(plan.settings().sides)))?,
             cap_pattern: table("the cap pattern", bytemuck::cast_slice(&cap_pattern(plan)))?,
-            of_yarns: Buffer::new(gpu, "parameters", BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            of_yarns: Buffer::new(gpu, "parameters", PARAMETERS | BufferUsages::COPY_DST)?,
         };
         tables.reserve_rolls(gpu, plan)?;
         tables.set_leans(gpu, plan, 0..plan.layout().yarns().len())?;

@@ -6,8 +6,7 @@ use wgpu::{Backends, InstanceDescriptor, InstanceFlags, PollType};
 use super::{DEVICE, SETTINGS, SIZE, TWILL};
 use crate::{Camera, Quality, Renderer};
 
-/// wgpu's report of the resources that it holds shows whether anything of the scenes is left. The
-/// memory of the process can't show it, because lavapipe keeps one to three MiB of each picture.
+/// wgpu's report of the resources that it holds shows whether anything of the scenes is left.
 #[test]
 fn scenes_that_come_and_go_leave_nothing_on_the_device() {
     let instance = wgpu::Instance::new(InstanceDescriptor {

@@ -7,10 +7,11 @@ use texere_shaders::{Resource, crossings};
 use wgpu::{BindingResource, BufferBinding, BufferSize, BufferUsages};
 
 use crate::gpu::Gpu;
+use crate::parameters::PARAMETERS;
 use crate::room::Room;
 
-/// The bytes from the parameters of a pass to those of the next. Every device can bind uniforms at
-/// multiples of this number.
+/// The bytes from the parameters of a pass to those of the next. Every device can bind uniforms
+/// and storage at multiples of this number.
 pub(super) const PARAMS_STEP: u64 = 256;
 
 /// The buffers that the shaders read and write.
@@ -38,9 +39,9 @@ impl Memory {
         let crossings = plan.crossings() as u64;
         let bytes = size_of::<CrossingState>() as u64 * crossings;
         let groups = crossings.div_ceil(crossings::MOVE.workgroup.into());
-        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let parameters = PARAMETERS | BufferUsages::COPY_DST;
         Ok(Self {
-            params: gpu.buffer("parameters", PARAMS_STEP * passes, uniform)?,
+            params: gpu.buffer("parameters", PARAMS_STEP * passes, parameters)?,
             threads: room.holding(gpu, "the thread table", &ThreadRow::all(plan))?,
             sites: room.holding(gpu, "the table of crossings", &CrossingSite::all(plan))?,
             crossings: room.take(gpu, "crossings", bytes)?,

@@ -8,6 +8,7 @@ use texere_shaders::settling::SCAN_VALUES;
 use wgpu::{BindingResource, BufferUsages};
 
 use crate::gpu::Gpu;
+use crate::parameters::PARAMETERS;
 use crate::room::Room;
 
 /// The numbers that a pass writes for each place. The block form of docs/SETTLING.md writes most:
@@ -78,7 +79,7 @@ impl Memory {
         let params = size_of::<SettlingParams>() as u64;
         let seen_row = size_of::<SeenRow>();
         Ok(Self {
-            params: gpu.buffer("parameters", params, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            params: gpu.buffer("parameters", params, PARAMETERS | BufferUsages::COPY_DST)?,
             place_rows: room.holding(gpu, "the place table", &PlaceRow::all(plan))?,
             strands: room.holding(gpu, "the strand table", &StrandRow::all(plan))?,
             chord_rows: room.holding(gpu, "the chord table", &ChordRow::all(plan))?,

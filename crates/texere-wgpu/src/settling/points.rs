@@ -11,6 +11,7 @@ use wgpu::{BufferUsages, CommandEncoder, ComputePassDescriptor};
 use super::{WgpuSettler, submit};
 use crate::kernel::Kernel;
 use crate::opened::Opened;
+use crate::parameters::PARAMETERS;
 
 impl WgpuSettler {
     /// Writes all control points, padded as `plan` says, to `points`, if that buffer belongs to the
@@ -59,7 +60,7 @@ impl WgpuSettler {
 
     fn settled_params(&self) -> Result<wgpu::Buffer, BackendError> {
         let (gpu, params) = (&self.opened.gpu, SettledParams::new(&self.plan));
-        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let usage = PARAMETERS | BufferUsages::COPY_DST;
         let buffer = gpu.buffer("parameters", size_of::<SettledParams>() as u64, usage)?;
         gpu.write(&buffer, 0, bytemuck::bytes_of(&params))?;
         Ok(buffer)

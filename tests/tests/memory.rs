@@ -64,8 +64,8 @@ fn a_file_peaks_at_two_chunks_in_any_format() {
     let device = texere::open("cpu").unwrap();
     let limits = Limits { binding_bytes: 8 << 20, ..Limits::NONE };
     let told = size_of_val(yarns.points()) + 2 * (2 * (8 << 20) + (1 << 20)) + 2000 * 3000;
-    let formats =
-        Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
+    let forms = [Format::PackedGlb, Format::CompressedGlb, Format::KhrCompressedGlb, Format::InstancedGlb];
+    let formats = Format::ALL.into_iter().chain(forms);
     let with = [Format::Glb, Format::CompressedGlb, Format::Ply, Format::Usda]
         .map(|format| format.with(VertexAttribute::ALL));
     for format in formats.map(MeshForm::from).chain(with) {

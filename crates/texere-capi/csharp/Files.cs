@@ -36,6 +36,8 @@ namespace Texere
         InstancedGlb = 6,
         /// <summary>The text form of Universal Scene Description: a mesh for each yarn.</summary>
         Usda = 7,
+        /// <summary>A packed glTF file, compressed further with the later extension KHR_meshopt_compression.</summary>
+        KhrCompressedGlb = 8,
     }
 
     /// <summary>The forms of yarns in a file.</summary>

@@ -365,6 +365,11 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_FORMAT_USDA = 7;
         /// <summary>
+        ///  A packed glTF file that is compressed further than TEXERE_FORMAT_COMPRESSED_GLB, as the later
+        ///  extension KHR_meshopt_compression says. Fewer programs know it.
+        /// </summary>
+        internal const uint TEXERE_FORMAT_KHR_COMPRESSED_GLB = 8;
+        /// <summary>
         ///  texere's own form of yarns, `.yarns`.
         /// </summary>
         internal const uint TEXERE_YARNS_FORMAT_YARNS = 0;
@@ -1062,7 +1067,7 @@ namespace Texere
         /// <summary>
         ///  Lends for each yarn the number of its first ring, and at the end how many rings there are in
         ///  all. That is one number more than the plan has yarns. The numbers are valid until the plan is
-        ///  freed. `*count` becomes how many they are.
+        ///  freed. `*count` becomes how many numbers there are.
         ///
         ///  Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
         /// </summary>
@@ -2400,7 +2405,7 @@ namespace Texere
         /// </summary>
         public ulong vertices;
         /// <summary>
-        ///  Indices.
+        ///  How many indices.
         /// </summary>
         public ulong indices;
         /// <summary>
@@ -2408,7 +2413,7 @@ namespace Texere
         /// </summary>
         public ulong triangles;
         /// <summary>
-        ///  Draws.
+        ///  How many draws.
         /// </summary>
         public ulong draws;
         /// <summary>
@@ -2502,8 +2507,8 @@ namespace Texere
 
     /// <summary>
     ///  The progress of a call that takes long, and whether the call is to end. Other threads read the
-    ///  one and set the other. A run may be given to one call after another; the progress begins at 0 in
-    ///  each.
+    ///  progress, and cancel the run. A run may be given to one call after another; the progress begins
+    ///  at 0 in each.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_run

@@ -292,6 +292,10 @@
 // The text form of Universal Scene Description, `.usda`: a mesh for each yarn.
 #define TEXERE_FORMAT_USDA 7
 
+// A packed glTF file that is compressed further than TEXERE_FORMAT_COMPRESSED_GLB, as the later
+// extension KHR_meshopt_compression says. Fewer programs know it.
+#define TEXERE_FORMAT_KHR_COMPRESSED_GLB 8
+
 // texere's own form of yarns, `.yarns`.
 #define TEXERE_YARNS_FORMAT_YARNS 0
 
@@ -368,8 +372,8 @@ typedef struct texere_plan texere_plan;
 typedef struct texere_renderer texere_renderer;
 
 // The progress of a call that takes long, and whether the call is to end. Other threads read the
-// one and set the other. A run may be given to one call after another; the progress begins at 0 in
-// each.
+// progress, and cancel the run. A run may be given to one call after another; the progress begins
+// at 0 in each.
 typedef struct texere_run texere_run;
 
 // Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
@@ -619,11 +623,11 @@ typedef struct texere_counts {
   uint64_t rings;
   // How many vertices. The vertices of a ring at which two chunks meet count twice.
   uint64_t vertices;
-  // Indices.
+  // How many indices.
   uint64_t indices;
   // How many triangles the draws draw.
   uint64_t triangles;
-  // Draws.
+  // How many draws.
   uint64_t draws;
   // How many chunks the mesh is made in.
   uint64_t chunks;
@@ -1878,7 +1882,7 @@ enum texere_status texere_plan_draws(const struct texere_plan *plan,
 
 // Lends for each yarn the number of its first ring, and at the end how many rings there are in
 // all. That is one number more than the plan has yarns. The numbers are valid until the plan is
-// freed. `*count` becomes how many they are.
+// freed. `*count` becomes how many numbers there are.
 //
 // Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
 enum texere_status texere_plan_ring_offsets(const struct texere_plan *plan,

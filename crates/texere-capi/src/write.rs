@@ -40,6 +40,9 @@ pub const TEXERE_FORMAT_COMPRESSED_GLB: u32 = 5;
 pub const TEXERE_FORMAT_INSTANCED_GLB: u32 = 6;
 /// The text form of Universal Scene Description, `.usda`: a mesh for each yarn.
 pub const TEXERE_FORMAT_USDA: u32 = 7;
+/// A packed glTF file that is compressed further than TEXERE_FORMAT_COMPRESSED_GLB, as the later
+/// extension KHR_meshopt_compression says. Fewer programs know it.
+pub const TEXERE_FORMAT_KHR_COMPRESSED_GLB: u32 = 8;
 
 /// Chunks of a file: 2 MiB of vertices at most. The file does not depend on them. A disk that takes
 /// 100 MB a second takes a chunk and its triangles in 50 ms.
@@ -103,6 +106,7 @@ pub unsafe extern "C" fn texere_plan_write_to(
             Format::CompressedGlb,
             Format::InstancedGlb,
             Format::Usda,
+            Format::KhrCompressedGlb,
         ];
         let format = choice("format", format, &formats)?;
         let (plan, run) = (get(plan)?, get_any(run)?);

@@ -9,9 +9,7 @@ use crate::{print, progress, reading, settling};
 
 pub(crate) fn run(args: &InspectArgs) -> Result<(), Fail> {
     let (mut design, said) = reading::reported(&args.design, args.curves)?;
-    if let Some(section) = &args.settings.section {
-        design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
-    }
+    reading::apply(&args.settings, &mut design)?;
     let (name, tension) = (design.name.clone(), args.settings.tension(design.structure.tension()));
     let (cloth, settling) = if args.counts {
         (design.placed(tension)?, None)

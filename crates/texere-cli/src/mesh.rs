@@ -8,7 +8,7 @@ use texere::check::{SettlingReport, counted};
 use texere::write::{Format, Output};
 use texere::{Backend, BackendError, Pipeline, Yarns};
 
-use crate::args::{MeshArgs, is_curves, is_yarns, undersampled};
+use crate::args::{MeshArgs, Meshopt, is_curves, is_yarns, undersampled};
 use crate::fail::Fail;
 use crate::terminal::line;
 use crate::{drivers, print, progress, reading, settling};
@@ -19,7 +19,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
         let own = [
             ("--triangles", args.triangles),
             ("--packed", args.packed),
-            ("--compressed", args.compressed),
+            ("--compressed", args.compressed.is_some()),
             ("--instanced", args.instanced),
             ("--attributes", !args.attributes.is_empty()),
         ];
@@ -82,7 +82,8 @@ fn output(args: &MeshArgs, files: impl IntoIterator<Item = impl AsRef<Path>>) ->
     let output = Output::to(&args.output).sparing(files).attributes(args.attributes.iter().copied());
     match args {
         MeshArgs { packed: true, .. } => output.packed(),
-        MeshArgs { compressed: true, .. } => output.compressed(),
+        MeshArgs { compressed: Some(Meshopt::Ext), .. } => output.compressed(),
+        MeshArgs { compressed: Some(Meshopt::Khr), .. } => output.khr_compressed(),
         MeshArgs { instanced: true, .. } => output.instanced(),
         MeshArgs { linear: true, .. } => output.linear(),
         _ => output,

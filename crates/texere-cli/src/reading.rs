@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use texere::Design;
+use texere::mesh::check_sides;
 use texere::rest::Piece;
 
 use crate::args::{CurveArgs, SettingsArgs, is_read_as_curves, is_yarns, says_thickness};
@@ -22,16 +23,28 @@ pub(crate) fn design(path: &Path) -> Result<Design, Fail> {
 /// them the section of the command line, if there is one.
 ///
 /// **Errors**: those of reading, an option of `curves` for a file of another kind, a diameter that
-/// curves lack, and a section that yarns can't have.
+/// curves lack, a section that yarns can't have, and sides that a polygon's tube can't have.
 pub(crate) fn cloth(path: &Path, curves: CurveArgs, settings: &SettingsArgs) -> Result<Design, Fail> {
     let mut design = match yarns(path, curves)? {
         Some(design) => design,
         None => design(path)?,
     };
+    apply(settings, &mut design)?;
+    Ok(design)
+}
+
+/// Gives the yarns of a design the section of the command line, if there is one, and checks the
+/// number of sides on the command line.
+///
+/// **Errors**: a section that yarns can't have, and sides that a polygon's tube can't have.
+pub(crate) fn apply(settings: &SettingsArgs, design: &mut Design) -> Result<(), Fail> {
     if let Some(section) = &settings.section {
         design.structure.set_section(section.clone()).map_err(|error| design.refused(error))?;
     }
-    Ok(design)
+    if let Some(sides) = settings.sides {
+        check_sides(sides, design.structure.sections())?;
+    }
+    Ok(())
 }
 
 /// Reads a design or yarns for a report. Prints the reader's remarks on standard error, except

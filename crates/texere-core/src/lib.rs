@@ -84,7 +84,9 @@ pub use mesh::{Mesh, MeshPiece};
 pub use packed::{PackedVertex, Quantum};
 pub use pipeline::{Pipeline, PipelineError, Progress};
 pub use place::YarnPlace;
-pub use plan::{Bounds, Cap, Counts, Limits, MeshPlace, PlanError, RINGS_MAX, Settings, YARN_RINGS_MAX};
+pub use plan::{
+    Bounds, Cap, Counts, Limits, MeshPlace, PlanError, RINGS_MAX, Settings, YARN_RINGS_MAX, check_sides,
+};
 pub use point::{COORDINATE_LIMIT, ControlPoint, Halves, RADIUS_MAX, RADIUS_MIN};
 pub use ray::Ray;
 pub use relaxation::error::RelaxationError;

@@ -323,6 +323,17 @@ impl Structure {
         }
     }
 
+    /// The sections of the yarns as they are placed.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        match self {
+            Self::Woven(design) => design.cloth().sections(),
+            Self::Weft(knit) => knit.sections(),
+            Self::Warp(knit) => knit.sections(),
+            Self::Yarns(piece) => piece.yarns.layout().sections(),
+        }
+    }
+
     /// Gives every yarn the same section. A woven design relieves its jammed threads again.
     ///
     /// **Errors**: [`FabricError`] if the section's numbers are not valid, or if relief would make

@@ -15,7 +15,7 @@ use crate::check::{Clearance, Diagnosis};
 use crate::edit::Editing;
 use crate::error::Raise;
 use crate::measures::Measures;
-use crate::mesh::{Mesh, settings};
+use crate::mesh::{Compressed, Mesh, settings};
 use crate::pick::Hit;
 use crate::picture::{Asked, Kept, View};
 use crate::yarns::{Shared, Yarns};
@@ -157,7 +157,8 @@ impl Cloth {
     /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
     /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
     /// yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about half of that,
-    /// for readers that know the extension ``EXT_meshopt_compression``. ``instanced`` and
+    /// for readers that know the extension ``EXT_meshopt_compression``; ``compressed="khr"``
+    /// compresses further, for those that know ``KHR_meshopt_compression``. ``instanced`` and
     /// ``attributes`` are those of :meth:`Mesh.write`.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
     /// mass, for simulators that read no other curves. ``triangles`` writes a ``.usda`` of meshes,
@@ -169,16 +170,16 @@ impl Cloth {
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
     /// be written, packed, compressed or instanced or can't hold the attributes; ValueError for one
-    /// that is to be several of packed, compressed, instanced and linear, and for an unknown
-    /// attribute.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new(), linear=false, triangles=false, device="auto"))]
+    /// that is to be several of packed, compressed, instanced and linear, for an unknown extension,
+    /// and for an unknown attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=Compressed::No, instanced=false, attributes=Vec::new(), linear=false, triangles=false, device="auto"), text_signature = "($self, path, *, packed=False, compressed=False, instanced=False, attributes=[], linear=False, triangles=False, device='auto')")]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
         packed: bool,
-        compressed: bool,
+        compressed: Compressed,
         instanced: bool,
         attributes: Vec<String>,
         linear: bool,
@@ -186,7 +187,7 @@ impl Cloth {
         device: &str,
     ) -> PyResult<()> {
         let yarns = self.cloth.yarns();
-        let output = mesh::output(&path, [packed, compressed, instanced, linear])?
+        let output = mesh::output(&path, compressed, [packed, instanced, linear])?
             .attributes(mesh::named(&attributes)?)
             .sparing(self.cloth.design().files());
         output.check().raise(py)?;

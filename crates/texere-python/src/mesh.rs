@@ -199,9 +199,10 @@ impl Mesh {
     /// whole or not at all. It is made again while it is written, piece by piece. ``packed`` halves
     /// the vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
     /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
-    /// half of that, for readers that know the extension ``EXT_meshopt_compression``. ``instanced``
-    /// writes a ``.glb`` that holds each part of a yarn once, as long as 16 control points or a
-    /// cap, for readers that know ``EXT_mesh_gpu_instancing``.
+    /// half of that, for readers that know the extension ``EXT_meshopt_compression``;
+    /// ``compressed="khr"`` compresses further, for those that know ``KHR_meshopt_compression``.
+    /// ``instanced`` writes a ``.glb`` that holds each part of a yarn once, as long as 16 control
+    /// points or a cap, for readers that know ``EXT_mesh_gpu_instancing``.
     /// ``attributes`` are further numbers of the vertices of a ``.glb``, a ``.ply`` or a ``.usda``:
     /// of ``uv``, the share of a turn round the yarn and the mm along it; ``tangent``, the
     /// direction along the yarn; ``yarn``, the yarn's number.
@@ -212,18 +213,18 @@ impl Mesh {
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written,
     /// packed, compressed or instanced or can't hold the attributes; ValueError for one that is to
-    /// be several of the three, and for an unknown attribute.
-    #[pyo3(signature = (path, *, packed=false, compressed=false, instanced=false, attributes=Vec::new()))]
+    /// be several of the three, for an unknown extension and for an unknown attribute.
+    #[pyo3(signature = (path, *, packed=false, compressed=Compressed::No, instanced=false, attributes=Vec::new()), text_signature = "($self, path, *, packed=False, compressed=False, instanced=False, attributes=[])")]
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
         packed: bool,
-        compressed: bool,
+        compressed: Compressed,
         instanced: bool,
         attributes: Vec<String>,
     ) -> PyResult<()> {
-        let output = output(&path, [packed, compressed, instanced, false])?.attributes(named(&attributes)?);
+        let output = output(&path, compressed, [packed, instanced, false])?.attributes(named(&attributes)?);
         watch::quietly(py, |run| {
             let pipeline = followed(pipeline(&self.yarns, self.settings), run);
             texere::write::stream(pipeline, &*self.device, output).map(|_| ())
@@ -304,18 +305,47 @@ pub(crate) fn named(attributes: &[String]) -> PyResult<Vec<VertexAttribute>> {
     attributes.iter().map(named).collect()
 }
 
+/// The extension that a `.glb` is compressed with, as an argument says it: `False`, `True` for the
+/// usual one, or its prefix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Compressed {
+    No,
+    Ext,
+    Khr,
+}
+
+impl FromPyObject<'_, '_> for Compressed {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, '_, PyAny>) -> PyResult<Self> {
+        if let Ok(compressed) = object.extract::<bool>() {
+            return Ok(if compressed { Self::Ext } else { Self::No });
+        }
+        match &*object.extract::<String>()? {
+            "ext" => Ok(Self::Ext),
+            "khr" => Ok(Self::Khr),
+            _ => Err(PyValueError::new_err("compressed is False, True, \"ext\" or \"khr\"")),
+        }
+    }
+}
+
 /// The file that a cloth, yarns or a mesh are written to: packed, compressed, instanced or linear,
 /// one of them at most.
 ///
 /// **Errors**: `ValueError` for a file that is to be several of them.
-pub(crate) fn output(path: &Path, forms: [bool; 4]) -> PyResult<Output> {
+pub(crate) fn output(
+    path: &Path,
+    compressed: Compressed,
+    [packed, instanced, linear]: [bool; 3],
+) -> PyResult<Output> {
     let output = Output::to(path);
-    match forms {
-        [false, false, false, false] => Ok(output),
-        [true, false, false, false] => Ok(output.packed()),
-        [false, true, false, false] => Ok(output.compressed()),
-        [false, false, true, false] => Ok(output.instanced()),
-        [false, false, false, true] => Ok(output.linear()),
+    match (compressed, packed, instanced, linear) {
+        (Compressed::No, false, false, false) => Ok(output),
+        (Compressed::No, true, false, false) => Ok(output.packed()),
+        (Compressed::Ext, false, false, false) => Ok(output.compressed()),
+        (Compressed::Khr, false, false, false) => Ok(output.khr_compressed()),
+        (Compressed::No, false, true, false) => Ok(output.instanced()),
+        (Compressed::No, false, false, true) => Ok(output.linear()),
         _ => Err(PyValueError::new_err(
             "a file is packed (.glb), compressed (.glb), instanced (.glb) or linear (.usda): one of them",
         )),

@@ -288,7 +288,7 @@ impl Yarns {
     #[pyo3(signature = (path, *, linear=false))]
     fn write(&self, py: Python<'_>, path: PathBuf, linear: bool) -> PyResult<()> {
         let (yarns, output): (&texere::Yarns, _) =
-            (&self.yarns, mesh::output(&path, [false, false, false, linear])?);
+            (&self.yarns, mesh::output(&path, mesh::Compressed::No, [false, false, linear])?);
         watch::quietly(py, |_| write(yarns, output))
     }
 

@@ -26,7 +26,7 @@
 pub use texere_core::{
     ArcLength, Attribute, Bounds, Cap, Change, Counts, End, Frame, Limits, MeshPiece, MeshPlace,
     PackedVertex, PlanError, Progress, Quantum, RINGS_MAX, Ray, TWIST_STEP, TWIST_SUBDIVISIONS_MAX, Topology,
-    Undersampled, YARN_RINGS_MAX,
+    Undersampled, YARN_RINGS_MAX, check_sides,
 };
 pub use texere_cpu::PickError;
 

@@ -66,6 +66,7 @@ static unsafe class Classes
         Check((uint)MeshFormat.CompressedGlb == Native.TEXERE_FORMAT_COMPRESSED_GLB, "MeshFormat");
         Check((uint)MeshFormat.InstancedGlb == Native.TEXERE_FORMAT_INSTANCED_GLB, "MeshFormat");
         Check((uint)MeshFormat.Usda == Native.TEXERE_FORMAT_USDA, "MeshFormat");
+        Check((uint)MeshFormat.KhrCompressedGlb == Native.TEXERE_FORMAT_KHR_COMPRESSED_GLB, "MeshFormat");
         Check((uint)YarnsFormat.Usda == Native.TEXERE_YARNS_FORMAT_USDA, "YarnsFormat");
         Check((uint)YarnsFormat.LinearUsda == Native.TEXERE_YARNS_FORMAT_LINEAR_USDA, "YarnsFormat");
         using (var design = Design.Read("plain.toml", Encoding.UTF8.GetBytes(Plain)))

@@ -225,6 +225,7 @@ fn a_file_for_a_callback_has_the_bytes_of_the_file() {
             (TEXERE_FORMAT_COMPRESSED_GLB, Format::CompressedGlb),
             (TEXERE_FORMAT_INSTANCED_GLB, Format::InstancedGlb),
             (TEXERE_FORMAT_USDA, Format::Usda),
+            (TEXERE_FORMAT_KHR_COMPRESSED_GLB, Format::KhrCompressedGlb),
         ];
         // A file's writer is the same for all devices, and text takes long: the others write one
         // format.

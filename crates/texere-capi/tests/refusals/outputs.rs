@@ -47,7 +47,7 @@ fn of_plans(own: &'static Handles) -> Vec<Case> {
     case!(cases, texere_plan_mesh_arrays(own.plan, null(), null()));
     case!(cases, texere_plan_stream(own.plan, null(), None, null_mut()));
     case!(cases, texere_plan_write_to(own.plan, null(), TEXERE_FORMAT_GLB, None, null_mut()));
-    case!(cases, texere_plan_write_to(own.plan, null(), 8, Some(take_bytes), null_mut()));
+    case!(cases, texere_plan_write_to(own.plan, null(), 9, Some(take_bytes), null_mut()));
     for view in views {
         let arrays = texere_mesh_arrays { positions: *view, ..sized() };
         case!(cases, texere_plan_mesh_arrays(own.plan, null(), &arrays));

@@ -13,7 +13,7 @@ mod view;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
 use texere::rest::Along;
 use texere::write::VertexAttribute;
 
@@ -117,6 +117,15 @@ pub(crate) struct CheckArgs {
     pub(crate) json: bool,
 }
 
+/// The extension of glTF that a file is compressed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Meshopt {
+    /// EXT_meshopt_compression, which most programs know
+    Ext,
+    /// KHR_meshopt_compression, whose files are smaller
+    Khr,
+}
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct MeshArgs {
     /// A .toml design, a draft (.wif, .dtx, .wpo), a .k program of a knitting machine, a .yarns
@@ -137,10 +146,12 @@ pub(crate) struct MeshArgs {
     /// yarn's box at most
     #[arg(long)]
     pub(crate) packed: bool,
-    /// Write a .glb that is packed and compressed to about half of that, as the extension
-    /// EXT_meshopt_compression says. Programs that don't know the extension refuse the file
-    #[arg(long, conflicts_with = "packed")]
-    pub(crate) compressed: bool,
+    /// Write a packed .glb that is compressed to about half of its bytes with the extension
+    /// EXT_meshopt_compression, or with --compressed=khr to a little less with
+    /// KHR_meshopt_compression. Programs that don't know the extension refuse the file
+    #[arg(long, value_name = "EXTENSION", num_args = 0..=1, require_equals = true, default_missing_value = "ext")]
+    #[arg(conflicts_with = "packed")]
+    pub(crate) compressed: Option<Meshopt>,
     /// Write a .glb that holds each part of a yarn once, as long as 16 control points or a cap, and
     /// the places at which it recurs, as the extension EXT_mesh_gpu_instancing says. Programs that
     /// don't know the extension refuse the file

@@ -20,6 +20,10 @@ fn a_folder_is_made_once() {
     let again = texere(&["bake", &denim, "-o", &output, "--texel", "0.05"]);
     assert_eq!(again.status.code(), Some(1));
     assert!(stderr(&again).contains("the folder has files in it"), "{}", stderr(&again));
+    // A folder that can't be made is refused before the design is read.
+    let nowhere = format!("{output}/missing/maps");
+    let refused = texere(&["bake", "no-design.toml", "-o", &nowhere]);
+    assert!(stderr(&refused).contains("missing/maps"), "{}", stderr(&refused));
     assert_eq!(document, fs::read_to_string(folder.join("Denim__3_1_right_hand_twill.u3m")).unwrap());
     assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 1);
 }

@@ -76,10 +76,18 @@ fn a_polygon_has_as_many_sides_as_corners() {
         }
         let output = texere(&["mesh", path, "--no-settle", "-o", mesh.to_str().unwrap()]);
         assert!(output.status.success() && mesh.exists(), "{output:?}");
-        // Other sides than a polygon's corners give a message.
-        let output = texere(&["inspect", "--counts", path, "--sides", "6"]);
-        assert_eq!(output.status.code(), Some(2), "{output:?}");
         std::fs::remove_file(&mesh).unwrap();
+        // Other sides than a polygon's corners are refused, and before anything else of a cloth
+        // that can't come to rest.
+        let cloth = std::fs::read_to_string(path).unwrap();
+        std::fs::write(path, cloth.replace("settle = false", "stretch_warp = 1.9")).unwrap();
+        assert_eq!(texere(&["inspect", path]).status.code(), Some(3));
+        for command in [&["inspect", "--counts"][..], &["inspect"], &["mesh", "-o", mesh.to_str().unwrap()]] {
+            let output = texere(&[command, &[path, "--sides", "6"]].concat());
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{said}");
+            assert!(said.contains(&format!("set sides to {count}")) && !mesh.exists(), "{said}");
+        }
     }
 }
 

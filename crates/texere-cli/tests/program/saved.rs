@@ -19,6 +19,7 @@ fn a_saved_cloth_has_the_mesh_of_its_design() {
             ("glb", "--caps"),
             ("glb", "--packed"),
             ("glb", "--compressed"),
+            ("glb", "--compressed=khr"),
             ("glb", "--instanced"),
             ("ply", "--attributes=uv,tangent,yarn"),
         ] {

@@ -27,7 +27,7 @@ pub use identity::TablesId;
 pub use limits::Limits;
 pub use locate::MeshPlace;
 pub use offsets::{RINGS_MAX, YARN_RINGS_MAX};
-pub use settings::Settings;
+pub use settings::{Settings, check_sides};
 
 use identity::PlanId;
 use offsets::Offsets;
@@ -38,9 +38,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::definitions::{Ring, SIDES_MAX, Sample, Sampling, Turn};
-use crate::section::{SIDES_MIN, triangulate};
-use crate::{ControlPoint, Frame, Layout, Section, SectionPoint, Topology, Yarn};
+use crate::definitions::{Ring, Sample, Sampling, Turn};
+use crate::section::triangulate;
+use crate::{ControlPoint, Frame, Layout, SectionPoint, Topology, Yarn};
 
 /// The counts and offsets of a fabric for one choice of settings.
 ///
@@ -116,18 +116,7 @@ impl Plan {
         room: Option<&dyn Fn(usize) -> u64>,
     ) -> Result<Self, PlanError> {
         let sampling = Sampling::new(&layout, settings.subdivisions)?;
-        if !(SIDES_MIN..=SIDES_MAX).contains(&settings.sides) {
-            return Err(PlanError::Sides { sides: settings.sides, low: SIDES_MIN, high: SIDES_MAX });
-        }
-        for (section, shape) in layout.sections().iter().enumerate() {
-            match shape {
-                Section::Polygon(corners) if corners.len() != settings.sides as usize => {
-                    let (corners, sides) = (corners.len(), settings.sides);
-                    return Err(PlanError::PolygonSides { section, corners, sides });
-                }
-                _ => {}
-            }
-        }
+        check_sides(settings.sides, layout.sections())?;
         let offsets = Arc::new(Offsets::new(&layout, &sampling, room)?);
         let outlines = layout.sections().iter().flat_map(|section| section.outline(settings.sides)).collect();
         let blocks = offsets.blocks.last().copied().unwrap_or(0);

@@ -1,6 +1,9 @@
 //! The settings of a mesh.
 
-use crate::{Frame, Quantum, Topology};
+use super::PlanError;
+use crate::definitions::SIDES_MAX;
+use crate::section::SIDES_MIN;
+use crate::{Frame, Quantum, Section, Topology};
 
 /// The choices that a mesh is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,4 +35,32 @@ impl Default for Settings {
             quantum: Quantum::USUAL,
         }
     }
+}
+
+/// Checks whether yarns with these sections can be meshed as tubes with so many `sides`, as
+/// [`Plan::new`](crate::backend::Plan::new) does. A program can check it before cloth comes to
+/// rest.
+///
+/// ```
+/// use texere_core::{PlanError, Section, check_sides};
+/// let square = Section::Polygon([[1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]].into());
+/// assert!(check_sides(4, &[Section::Circle, square.clone()]).is_ok());
+/// let refused = check_sides(6, &[Section::Circle, square]);
+/// assert_eq!(refused, Err(PlanError::PolygonSides { section: 1, corners: 4, sides: 6 }));
+/// ```
+///
+/// **Errors**: [`PlanError::Sides`] and [`PlanError::PolygonSides`].
+pub fn check_sides(sides: u32, sections: &[Section]) -> Result<(), PlanError> {
+    if !(SIDES_MIN..=SIDES_MAX).contains(&sides) {
+        return Err(PlanError::Sides { sides, low: SIDES_MIN, high: SIDES_MAX });
+    }
+    for (section, shape) in sections.iter().enumerate() {
+        match shape {
+            Section::Polygon(corners) if corners.len() != sides as usize => {
+                return Err(PlanError::PolygonSides { section, corners: corners.len(), sides });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }

@@ -2,6 +2,7 @@
 //! yarns that come to rest, name threads, bars and sizes. In a file a key sets each of these, and
 //! the key has a line.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use texere_core::{Origin, Subject};
@@ -31,7 +32,6 @@ const STRUCTURE: &[&str] = &[
     "knit.chart",
     "knit.image",
     "knit.knitout",
-    "warp_knit.bars, bar 1: lapping",
     "weave.notation",
     "weave.drawdown",
     "weave.image",
@@ -139,14 +139,13 @@ impl Keys {
 
     /// The place in this file of the key that sets `subject`.
     fn of(&self, subject: Subject, yarn: &impl Fn(Origin) -> Option<String>) -> Option<FilePlace> {
-        let bar = |bar, key| self.line(&format!("warp_knit.bars, bar {bar}: {key}"));
         let yarn = |thread, keys| self.yarn(thread, yarn(thread), keys);
         match subject {
             Subject::Size => self.first(SIZE).or_else(|| self.last()),
             Subject::Width => self.line("warp_knit.wales"),
             Subject::Height => self.line("warp_knit.courses"),
             Subject::Copies => self.first(&["knit.repeat", "warp_knit.repeat", "warp_knit.wales"]),
-            Subject::Structure => self.first(STRUCTURE).or_else(|| self.last()),
+            Subject::Structure => self.first(STRUCTURE).or_else(|| self.lappings()).or_else(|| self.last()),
             Subject::Wales => self.first(WALES),
             Subject::Courses => self.first(COURSES),
             Subject::Loops => self.first(LOOPS),
@@ -166,10 +165,10 @@ impl Keys {
             Subject::Crimp => self.line("cloth.warp_crimp"),
             Subject::Carriers => self.line("knit.yarns"),
             Subject::Bars => self.line("warp_knit.bars"),
-            Subject::Threading(number) => bar(number, "threading"),
-            Subject::Offset(number) => bar(number, "offset"),
-            Subject::RunIn(number) => bar(number, "run_in_mm"),
-            Subject::Jacquard(number) => bar(number, "colors"),
+            Subject::Threading(number) => self.bar(number, "threading"),
+            Subject::Offset(number) => self.bar(number, "offset"),
+            Subject::RunIn(number) => self.bar(number, "run_in_mm"),
+            Subject::Jacquard(number) => self.bar(number, "colors"),
             Subject::Rest => self.line("finish.rest"),
             Subject::Length => self.line("finish.length"),
             Subject::Tension => self.line("finish.tension"),
@@ -185,6 +184,16 @@ impl Keys {
     fn line(&self, key: &str) -> Option<FilePlace> {
         let (_, line) = self.lines.iter().find(|(own, _)| own == key)?;
         Some(FilePlace::new(&self.file, *line, key))
+    }
+
+    /// The place of the lapping of a warp knit's only bar, or of all bars if there are several.
+    fn lappings(&self) -> Option<FilePlace> {
+        if self.bar(2, "lapping").is_some() { self.line("warp_knit.bars") } else { self.bar(1, "lapping") }
+    }
+
+    /// The place of a key of a guide bar, counted from 1.
+    fn bar(&self, number: impl Display, key: &str) -> Option<FilePlace> {
+        self.line(&format!("warp_knit.bars, bar {number}: {key}"))
     }
 
     fn first(&self, keys: &[&str]) -> Option<FilePlace> {
@@ -250,7 +259,7 @@ impl Keys {
         own.or_else(|| match thread {
             Origin::End(_) => self.line("warp.yarns"),
             Origin::Pick(_) => self.line("weft.yarns"),
-            Origin::Guide { bar, .. } => self.line(&format!("warp_knit.bars, bar {bar}: threading")),
+            Origin::Guide { bar, .. } => self.bar(bar, "threading"),
             Origin::Course(_) | Origin::Carrier(_) => self.line("knit.yarns"),
             _ => None,
         })

@@ -39,7 +39,7 @@ fn writer<'a, W: Write + Seek + 'a>(
             Ok(Box::new(GlbWriter::start(target, plan, chunks, materials, form, bounds)?))
         }
         #[cfg(feature = "glb")]
-        Format::CompressedGlb => {
+        Format::CompressedGlb | Format::KhrCompressedGlb => {
             Ok(Box::new(CompressedGlbWriter::start(target, plan, chunks, materials, form, bounds)?))
         }
         #[cfg(feature = "glb")]

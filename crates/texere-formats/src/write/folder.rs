@@ -46,10 +46,11 @@ pub fn folder<E: From<WriteError>>(
     Ok(())
 }
 
-/// Makes sure that there is nothing at `path`, or an empty folder. The check is meant for a program
-/// that has much to do before it writes. [`folder`](fn@folder) makes the check itself.
+/// Makes sure that `path` is an empty folder, or that nothing is there and its parent is a folder.
+/// The check is meant for a program that has much to do before it writes. [`folder`](fn@folder)
+/// makes the check itself.
 ///
-/// **Errors**: [`WriteError::Io`] if there is something else at `path`.
+/// **Errors**: [`WriteError::Io`] if there is something else at `path`, or no folder for it.
 pub fn vacant(path: impl AsRef<Path>) -> Result<(), WriteError> {
     let path = path.as_ref();
     free(path).map_err(|source| WriteError::io("create", path, source))
@@ -57,7 +58,10 @@ pub fn vacant(path: impl AsRef<Path>) -> Result<(), WriteError> {
 
 fn free(path: &Path) -> io::Result<()> {
     match fs::read_dir(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound && fs::symlink_metadata(path).is_err() => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound && fs::symlink_metadata(path).is_err() => {
+            let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+            if parent.is_none_or(Path::is_dir) { Ok(()) } else { Err(error) }
+        }
         Err(error) => Err(error),
         Ok(mut entries) => match entries.next() {
             None => Ok(()),

@@ -111,7 +111,12 @@ impl Format {
             Self::Stl => ("STL", [uv, tangent, yarn]),
             Self::InstancedGlb => ("instanced GLB", [uv, tangent, yarn]),
             Self::Obj => ("OBJ", [false, tangent, yarn]),
-            Self::Glb | Self::PackedGlb | Self::CompressedGlb | Self::Ply | Self::Usda => return Ok(()),
+            Self::Glb
+            | Self::PackedGlb
+            | Self::CompressedGlb
+            | Self::KhrCompressedGlb
+            | Self::Ply
+            | Self::Usda => return Ok(()),
         };
         let names = ["texture coordinates", "tangents of vertices", "numbers of yarns"];
         match unheld.iter().position(|unheld| *unheld) {

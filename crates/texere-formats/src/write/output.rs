@@ -40,6 +40,7 @@ enum Form {
     Plain,
     Packed,
     Compressed,
+    KhrCompressed,
     Instanced,
     Linear,
 }
@@ -106,6 +107,30 @@ impl Output {
     #[must_use]
     pub fn compressed(mut self) -> Self {
         self.form = Form::Compressed;
+        self
+    }
+
+    /// Packs and compresses a mesh as [`Format::KhrCompressedGlb`]. The path has to end in `.glb`.
+    ///
+    /// ```
+    /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
+    /// use texere_cpu::ParallelBackend;
+    /// use texere_formats::write::{self, Output};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let [ext, khr] = ["ext.glb", "khr.glb"].map(|name| folder.path().join(name));
+    /// let mut yarns = Yarns::builder();
+    /// let points: Vec<_> = (0..200).map(|step| ControlPoint::new(step as f32, 0.0, 0.0, 0.1)).collect();
+    /// yarns.yarn(Yarn::default(), &points);
+    /// let mesh = Pipeline::new(&yarns.build()?).sides(12).mesh(&ParallelBackend::open()?)?;
+    /// write::mesh(&mesh, Output::to(&ext).compressed())?;
+    /// write::mesh(&mesh, Output::to(&khr).khr_compressed())?;
+    /// let [ext, khr] = [ext, khr].map(|file| std::fs::metadata(file).unwrap().len());
+    /// assert!(khr < ext);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn khr_compressed(mut self) -> Self {
+        self.form = Form::KhrCompressed;
         self
     }
 
@@ -191,6 +216,7 @@ impl Output {
         let format = match self.form {
             Form::Packed => Format::PackedGlb,
             Form::Compressed => Format::CompressedGlb,
+            Form::KhrCompressed => Format::KhrCompressedGlb,
             Form::Instanced => Format::InstancedGlb,
             Form::Plain => Format::from_path(&self.path)?,
             Form::Linear => {
@@ -214,7 +240,7 @@ impl Output {
         }
         match self.form {
             Form::Linear => Ok(CurveFormat::LinearUsda),
-            Form::Plain | Form::Packed | Form::Compressed | Form::Instanced => {
+            Form::Plain | Form::Packed | Form::Compressed | Form::KhrCompressed | Form::Instanced => {
                 CurveFormat::from_path(&self.path)
             }
         }
@@ -234,6 +260,7 @@ impl Output {
             Form::Plain => return Ok(()),
             Form::Packed => Format::PackedGlb.extension(),
             Form::Compressed => Format::CompressedGlb.extension(),
+            Form::KhrCompressed => Format::KhrCompressedGlb.extension(),
             Form::Instanced => Format::InstancedGlb.extension(),
             Form::Linear => CurveFormat::LinearUsda.extension(),
         };

@@ -86,14 +86,16 @@ fn write(mesh: &Mesh, form: impl Into<MeshForm>, piece: usize, out: Failing) -> 
     feed.finish()?.into_inner()
 }
 
+/// The forms of glTF that no extension of files stands for.
+const GLB_FORMS: [Format; 4] =
+    [Format::PackedGlb, Format::CompressedGlb, Format::KhrCompressedGlb, Format::InstancedGlb];
+
 #[test]
 fn a_full_disk_is_an_error_at_any_byte() {
     let folder = tempfile::tempdir().unwrap();
     let on_disk = |room| Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room };
     let mesh = mesh();
-    for format in
-        Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb])
-    {
+    for format in Format::ALL.into_iter().chain(GLB_FORMS) {
         let plenty = 1 << 30;
         let needed = plenty - write(&mesh, format, usize::MAX, on_disk(plenty)).unwrap().room;
         for room in (0..needed).step_by(100_003).chain([1, 11, 12, needed - 1]) {
@@ -112,10 +114,16 @@ fn a_full_disk_is_an_error_at_any_byte() {
 fn pieces_of_any_size_give_the_same_file() {
     let mesh = mesh();
     let folder = tempfile::tempdir().unwrap();
-    let formats =
-        Format::ALL.into_iter().chain([Format::PackedGlb, Format::CompressedGlb, Format::InstancedGlb]);
-    let with = [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::Ply, Format::Usda]
-        .map(|format| format.with(VertexAttribute::ALL));
+    let formats = Format::ALL.into_iter().chain(GLB_FORMS);
+    let with = [
+        Format::Glb,
+        Format::PackedGlb,
+        Format::CompressedGlb,
+        Format::KhrCompressedGlb,
+        Format::Ply,
+        Format::Usda,
+    ]
+    .map(|format| format.with(VertexAttribute::ALL));
     for form in formats.map(MeshForm::from).chain(with) {
         let file = |piece| {
             let out = Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room: usize::MAX };

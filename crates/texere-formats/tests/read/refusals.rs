@@ -105,6 +105,11 @@ fn refused_cloth_names_file_line_and_key() {
             "too many yarns lie in one place",
         ),
         (
+            warp("wales = 4\ncourses = 4", &format!("{}\n{}", bar("1-0/1-2//"), bar("0-1/511-512//"))),
+            "line 6: warp_knit.bars asks",
+            "too many yarns lie in one place",
+        ),
+        (
             warp("wales = 16384\ncourses = 32768", &format!("{0}\n{0}", bar("1-0/1-2//"))),
             "line 2: warp_knit.wales",
             "1073741824 laps",

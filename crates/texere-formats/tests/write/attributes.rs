@@ -17,7 +17,8 @@ use crate::fabric::{fabric, long_yarn, pipeline, ways, whole};
 use crate::obj;
 use crate::unpack::unpack;
 
-const FORMATS: [Format; 3] = [Format::Glb, Format::PackedGlb, Format::CompressedGlb];
+const FORMATS: [Format; 4] =
+    [Format::Glb, Format::PackedGlb, Format::CompressedGlb, Format::KhrCompressedGlb];
 
 /// The lobed yarn of the fabric.
 const LOBED: u32 = 3;
@@ -40,8 +41,8 @@ fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
 
 /// A GLB file and the buffer of its views.
 fn opened(bytes: &[u8], format: Format) -> (Gltf, Vec<u8>) {
-    if format == Format::CompressedGlb {
-        let file = unpack(bytes);
+    if matches!(format, Format::CompressedGlb | Format::KhrCompressedGlb) {
+        let file = unpack(bytes, format);
         return (file.gltf, file.buffer);
     }
     let mut gltf = Gltf::from_slice_without_validation(bytes).unwrap();

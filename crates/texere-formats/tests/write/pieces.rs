@@ -127,10 +127,11 @@ fn of_usda(bytes: &[u8]) -> usize {
 }
 
 /// The formats in which a yarn is one piece.
-const WHOLE: [Format; 7] = [
+const WHOLE: [Format; 8] = [
     Format::Glb,
     Format::PackedGlb,
     Format::CompressedGlb,
+    Format::KhrCompressedGlb,
     Format::Ply,
     Format::Stl,
     Format::Obj,
@@ -152,6 +153,7 @@ fn each_file(
             let output = || match format {
                 Format::PackedGlb => Output::to(&path).packed(),
                 Format::CompressedGlb => Output::to(&path).compressed(),
+                Format::KhrCompressedGlb => Output::to(&path).khr_compressed(),
                 Format::InstancedGlb => Output::to(&path).instanced(),
                 _ => Output::to(&path),
             };
@@ -168,8 +170,8 @@ fn each_file(
 fn pieces(format: Format, bytes: &[u8]) -> usize {
     match format {
         Format::Glb | Format::PackedGlb => of_glb(bytes),
-        Format::CompressedGlb => {
-            let file = unpack(bytes);
+        Format::CompressedGlb | Format::KhrCompressedGlb => {
+            let file = unpack(bytes, format);
             of_primitives(&file.gltf, &file.buffer)
         }
         Format::Ply => of_ply(bytes),

@@ -175,7 +175,7 @@ class Cloth:
         path: _Path,
         *,
         packed: bool = False,
-        compressed: bool = False,
+        compressed: bool | Literal["ext", "khr"] = False,
         instanced: bool = False,
         attributes: Sequence[_Attribute] = ...,
         linear: bool = False,
@@ -244,7 +244,7 @@ class Mesh:
         path: _Path,
         *,
         packed: bool = False,
-        compressed: bool = False,
+        compressed: bool | Literal["ext", "khr"] = False,
         instanced: bool = False,
         attributes: Sequence[_Attribute] = ...,
     ) -> None: ...

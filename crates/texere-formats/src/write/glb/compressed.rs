@@ -7,11 +7,12 @@ use std::path::Path;
 use texere_core::backend::{Chunk, Plan, SessionError, room_for};
 use texere_core::{Material, PipelineError};
 
-use super::column::corners;
+use super::column::{Column, corners};
 use super::document::Document;
 use super::form::VertexForm;
 use super::grid::{Grid, stepped};
-use super::meshopt::{AttributeEncoder, TriangleEncoder};
+use super::meshopt::{AttributeEncoder, Differences, Meshopt, TriangleEncoder};
+use super::schema::SHORT;
 use super::start::{Start, begin};
 use crate::write::WriteError;
 use crate::write::bounds::Bounds;
@@ -56,10 +57,12 @@ impl<W: Write + Seek> CompressedGlbWriter<W> {
         let Start { document, form, corners, grids } = Start::new(plan, chunks, materials, form, bounds)?;
         let first_of_caps = ring.tubes(plan);
         let caps = ring.vertices(plan) - first_of_caps;
-        let column = |stride| CompressedColumn::new(stride, caps, target.path());
+        // Only compressed forms have this writer.
+        let extension = form.compression.unwrap_or(Meshopt::Ext);
+        let column = |column| CompressedColumn::new(column, extension, caps, target.path());
         Ok(Self {
             pattern: compressed_pattern(plan, &document, target.path())?,
-            columns: form.columns.iter().map(|each| column(each.bytes)).collect::<Result<_, _>>()?,
+            columns: form.columns.iter().map(column).collect::<Result<_, _>>()?,
             document,
             form,
             corners,
@@ -136,14 +139,19 @@ struct CompressedColumn {
 }
 
 impl CompressedColumn {
-    /// A column of `stride` bytes for each vertex, with `caps` vertices of caps.
+    /// A column of all vertices, of which `caps` are those of caps.
     ///
     /// **Errors**: [`WriteError::Pipeline`] if memory is short.
-    fn new(stride: u64, caps: u64, path: Option<&Path>) -> Result<Self, WriteError> {
+    fn new(column: &Column, extension: Meshopt, caps: u64, path: Option<&Path>) -> Result<Self, WriteError> {
         let mut bytes = Vec::new();
-        room_for(&mut bytes, (caps * stride) as usize, "vertices of caps")
+        room_for(&mut bytes, (caps * column.bytes) as usize, "vertices of caps")
             .map_err(|short| PipelineError::from(SessionError::from(short)))?;
-        Ok(Self { encoder: AttributeEncoder::new(stride as usize), spool: Spool::beside(path), caps: bytes })
+        let differences = match (extension, column.kind) {
+            (Meshopt::Khr, SHORT) => Differences::Words,
+            _ => Differences::Bytes,
+        };
+        let encoder = AttributeEncoder::new(column.bytes as usize, extension, differences);
+        Ok(Self { encoder, spool: Spool::beside(path), caps: bytes })
     }
 
     /// Takes the column of further vertices, which are those of a cap if `of_cap` says so.

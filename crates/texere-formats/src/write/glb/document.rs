@@ -202,7 +202,7 @@ impl Document {
         let mut end = 0;
         for (view, length) in self.gltf.buffer_views.iter_mut().zip(lengths) {
             if let Some(extensions) = &mut view.extensions {
-                (extensions.compression.byte_offset, extensions.compression.byte_length) = (end, length);
+                (extensions.value.byte_offset, extensions.value.byte_length) = (end, length);
             }
             end += length;
         }

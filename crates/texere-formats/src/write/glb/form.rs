@@ -6,9 +6,10 @@ use super::column::{
     COORDINATES, Column, NORMALS, OCTAHEDRAL_NORMALS, OCTAHEDRAL_TANGENTS, PACKED_NORMALS, PACKED_POSITIONS,
     PACKED_TANGENTS, POSITIONS, TANGENTS, YARNS,
 };
+use super::meshopt::Meshopt;
 use super::schema::{
-    self, ARRAY_BUFFER, Accessor, Buffer, BufferExtensions, BufferView, Compression, ELEMENT_ARRAY_BUFFER,
-    FLOAT, Fallback, UNSIGNED_INT, ViewExtensions,
+    self, ARRAY_BUFFER, Accessor, Buffer, BufferView, Compression, ELEMENT_ARRAY_BUFFER, Extension, FLOAT,
+    Fallback, UNSIGNED_INT,
 };
 use crate::write::Format;
 use crate::write::mesh_form::{Attributes, MeshForm};
@@ -25,16 +26,13 @@ const INDEX_BYTES: u64 = size_of::<u32>() as u64;
 /// The extension that allows positions in 16-bit numbers and normals in 8-bit numbers.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
-/// The extension that compresses buffer views.
-const COMPRESSION: &str = "EXT_meshopt_compression";
-
 /// The columns of all vertices: first positions, then normals, then attributes.
 #[derive(Debug)]
 pub(super) struct VertexForm {
     pub(super) columns: Vec<Column>,
-    /// Whether each column has a compressed buffer view of its own. If not, the columns of a vertex
-    /// follow one another in a buffer view of all vertices.
-    pub(super) compressed: bool,
+    /// The extension that compresses a buffer view of its own for each column. If there is none,
+    /// the columns of a vertex follow one another in a buffer view of all vertices.
+    pub(super) compression: Option<Meshopt>,
 }
 
 impl VertexForm {
@@ -42,14 +40,21 @@ impl VertexForm {
     pub(super) fn new(form: MeshForm) -> Self {
         let [positions, normals, tangents] = match form.format {
             Format::PackedGlb => [PACKED_POSITIONS, PACKED_NORMALS, PACKED_TANGENTS],
-            Format::CompressedGlb => [PACKED_POSITIONS, OCTAHEDRAL_NORMALS, OCTAHEDRAL_TANGENTS],
+            Format::CompressedGlb | Format::KhrCompressedGlb => {
+                [PACKED_POSITIONS, OCTAHEDRAL_NORMALS, OCTAHEDRAL_TANGENTS]
+            }
             _ => [POSITIONS, NORMALS, TANGENTS],
         };
         let Attributes { uv, tangent, yarn } = form.attributes;
         let columns =
             [(true, positions), (true, normals), (uv, COORDINATES), (tangent, tangents), (yarn, YARNS)];
         let columns = columns.into_iter().filter(|(asked, _)| *asked).map(|(_, column)| column).collect();
-        Self { columns, compressed: form.format == Format::CompressedGlb }
+        let compression = match form.format {
+            Format::CompressedGlb => Some(Meshopt::Ext),
+            Format::KhrCompressedGlb => Some(Meshopt::Khr),
+            _ => None,
+        };
+        Self { columns, compression }
     }
 
     /// Whether a vertex is stored as [`Vertex`](texere_core::Vertex) is in memory.
@@ -68,8 +73,8 @@ impl VertexForm {
 
     /// The extensions that a reader has to know.
     pub(super) fn extensions(&self) -> Vec<&'static str> {
-        let extensions = [(self.is_packed(), QUANTIZATION), (self.compressed, COMPRESSION)];
-        extensions.into_iter().filter(|(needed, _)| *needed).map(|(_, extension)| extension).collect()
+        let quantization = self.is_packed().then_some(QUANTIZATION);
+        quantization.into_iter().chain(self.compression.map(Meshopt::name)).collect()
     }
 
     /// The accessors of a primitive's vertices, of which `first` has the positions.
@@ -82,7 +87,7 @@ impl VertexForm {
     pub(super) fn accessors(&self, vertices: &Range<u64>) -> Vec<Accessor> {
         let (mut accessors, mut offset) = (Vec::new(), 0);
         for (number, column) in self.columns.iter().enumerate() {
-            let (view, byte_offset) = if self.compressed {
+            let (view, byte_offset) = if self.compression.is_some() {
                 (VERTICES + number, vertices.start * column.bytes)
             } else {
                 (VERTICES, vertices.start * self.bytes() + offset)
@@ -107,7 +112,7 @@ impl VertexForm {
     /// places of compressed views are not known yet.
     pub(super) fn views(&self, indices: u64, vertices: u64) -> (Vec<BufferView>, Vec<Buffer>) {
         let whole = Column { bytes: self.bytes(), filter: None, ..self.columns[0] };
-        let columns = if self.compressed { &self.columns[..] } else { &[whole] };
+        let columns = if self.compression.is_some() { &self.columns[..] } else { &[whole] };
         let mut views = vec![BufferView {
             buffer: 0,
             byte_offset: 0,
@@ -129,10 +134,10 @@ impl VertexForm {
             end += vertices * column.bytes;
         }
         let mut buffers = vec![Buffer { byte_length: end, extensions: None }];
-        if self.compressed {
+        if let Some(extension) = self.compression {
             // The views unpacked lie in a buffer that the file doesn't hold. The file's own buffer
             // has the number 0.
-            let extensions = Some(BufferExtensions { compression: Fallback { fallback: true } });
+            let extensions = Some(Extension { name: extension.name(), value: Fallback { fallback: true } });
             buffers.push(Buffer { byte_length: end, extensions });
             views.iter_mut().for_each(|view| view.buffer = 1);
         }
@@ -145,10 +150,10 @@ impl VertexForm {
         byte_stride: u64,
         count: u64,
         filter: Option<&'static str>,
-    ) -> Option<ViewExtensions> {
-        let compression =
+    ) -> Option<Extension<Compression>> {
+        let value =
             Compression { buffer: 0, byte_offset: 0, byte_length: 0, byte_stride, count, mode, filter };
-        self.compressed.then_some(ViewExtensions { compression })
+        self.compression.map(|extension| Extension { name: extension.name(), value })
     }
 }
 

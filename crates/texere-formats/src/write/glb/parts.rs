@@ -12,24 +12,26 @@ use crate::write::WriteError;
 /// `designs/paper/figure-7a.toml`, 2,880 by 1,840 threads, takes 9 MB of them.
 const BYTES_MAX: u64 = 1 << 28;
 
-/// The bytes that a part takes besides its vertices: among the parts and in the document, most of
-/// them in the document's text.
+/// The bytes that a part takes besides its vertices, in memory and in the document. Most of them
+/// are the document's text.
 const PART_BYTES: u64 = 1 << 11;
 
-/// The numbers by which a part is looked for. With 16 of them, one for each control interval of a
-/// part, parts of figure 7a's cloth that differ are rarely compared vertex by vertex.
+/// The number of features of a part. Features are numbers by which a part is looked up. With 16,
+/// one for each control interval of a part, parts of figure 7a's cloth that differ are rarely
+/// compared vertex by vertex.
 const FEATURES: usize = 16;
 
-/// The width of a feature's bins, in reaches of what a feature may be off. Wider bins hold more
-/// parts that differ, narrower ones have more edges that a feature may lie at.
+/// The width of a feature's bins, as a multiple of the most that a feature of equal parts differs.
+/// Wider bins hold more parts that differ, narrower ones have more edges that a feature may lie at.
 const BIN: f64 = 64.0;
 
-/// The most bins that are looked at for a part. Each feature near an edge doubles their number. A
-/// part for which there would be more is held a second time, which costs bytes and nothing else.
+/// The most bins that are looked at for a part. Each feature near an edge doubles their number.
+/// Once there are as many, further features are looked up in their own bin only. An equal part may
+/// then be missed and the part be held a second time, which costs bytes and nothing else.
 const BINS_MOST: usize = 64;
 
-/// The most parts that a part is compared with. Of a large cloth whose parts differ a little, bins
-/// hold thousands. A part beyond the limit is held a second time.
+/// The most parts that a part is compared with. In a large cloth whose parts differ a little, one
+/// bin may hold thousands. If none of those compared is equal, the part is held a second time.
 const COMPARED_MOST: usize = 64;
 
 /// The direction along which vertices are measured for a feature. No axis of a cloth is at right
@@ -83,8 +85,9 @@ impl Parts {
         Self { off, parts: Vec::new(), found: HashMap::new(), bytes: 0 }
     }
 
-    /// All parts of tubes, and then all caps, each in the order in which they first came. Which
-    /// caps come between which parts of tubes depends on how the mesh is cut into chunks.
+    /// All parts of tubes, and then all caps, each in the order in which they first came. If
+    /// tubes and caps stayed in the order in which they came, the file would depend on how the mesh
+    /// is cut into chunks.
     pub(super) fn in_order(mut self) -> Vec<Part> {
         self.parts.sort_by_key(|part| matches!(part.kind.triangles, Triangles::Cap { .. }));
         self.parts
@@ -116,14 +119,14 @@ impl Parts {
         Ok(())
     }
 
-    /// The places of [`FEATURES`] vertices along [`DIRECTION`], in bins. Each is moved by a share
-    /// of a bin of its own, so that no height which recurs in a cloth lies at the edges of many
-    /// bins.
+    /// The places of [`FEATURES`] vertices along [`DIRECTION`], in bins. Each place is moved by a
+    /// fraction of a bin of its own. Otherwise a place that recurs in a cloth could lie near an
+    /// edge of a bin for many features at once.
     fn features(&self, vertices: &[Vertex]) -> [f64; FEATURES] {
         std::array::from_fn(|number| {
             let position = vertices[(vertices.len() - 1) * (number + 1) / FEATURES].position;
             let along: f64 = iter::zip(position, DIRECTION).map(|(own, axis)| f64::from(own) * axis).sum();
-            // The golden ratio's multiples lie evenly between whole numbers.
+            // The fractional parts of the golden ratio's multiples spread evenly over 0 to 1.
             along / self.bin() + 0.618_033_988_75 * (number + 1) as f64
         })
     }
@@ -153,7 +156,8 @@ fn from(vertex: &Vertex, place: [f32; 3]) -> Vertex {
     Vertex { position: std::array::from_fn(|axis| vertex.position[axis] - place[axis]), ..*vertex }
 }
 
-/// The bins of features that may differ from `features` by `off`, in bins.
+/// The bins of all features that differ from `features` by no more than `off`. Both are in widths
+/// of a bin.
 fn bins(features: &[f64; FEATURES], off: f64) -> impl Iterator<Item = [i32; FEATURES]> {
     let mut all = vec![[0; FEATURES]];
     for (number, feature) in features.iter().enumerate() {
@@ -163,6 +167,7 @@ fn bins(features: &[f64; FEATURES], off: f64) -> impl Iterator<Item = [i32; FEAT
         all.iter_mut().for_each(|bins| bins[number] = own);
         all.extend_from_within(..others);
         let before = all.len() - others;
+        // Either `low` or `high` is the own bin. This is the other one.
         all[before..].iter_mut().for_each(|bins| bins[number] = low ^ high ^ own);
     }
     all.into_iter()

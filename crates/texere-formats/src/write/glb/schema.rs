@@ -97,11 +97,7 @@ objects! {
         "byteLength" byte_length: u64,
         "byteStride" byte_stride: Option<u64>,
         "target" target: Option<u32>,
-        "extensions" extensions: Option<ViewExtensions>,
-    }
-
-    ViewExtensions {
-        "EXT_meshopt_compression" compression: Compression,
+        "extensions" extensions: Option<Extension<Compression>>,
     }
 
     Compression {
@@ -116,15 +112,24 @@ objects! {
 
     Buffer {
         "byteLength" byte_length: u64,
-        "extensions" extensions: Option<BufferExtensions>,
-    }
-
-    BufferExtensions {
-        "EXT_meshopt_compression" compression: Fallback,
+        "extensions" extensions: Option<Extension<Fallback>>,
     }
 
     Fallback {
         "fallback" fallback: bool,
+    }
+}
+
+/// What an extension says of a buffer view or a buffer.
+#[derive(Debug)]
+pub(super) struct Extension<T> {
+    pub(super) name: &'static str,
+    pub(super) value: T,
+}
+
+impl<T: Json> Json for Extension<T> {
+    fn write(&self, text: &mut String) {
+        object(&[(self.name, &self.value)], text);
     }
 }
 

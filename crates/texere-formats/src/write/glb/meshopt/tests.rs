@@ -4,11 +4,22 @@ use glam::Vec3;
 use meshopt::{decode_filter_oct, decode_index_buffer, decode_vertex_buffer};
 use proptest::prelude::*;
 
-use super::{AttributeEncoder, TriangleEncoder, octahedral};
+use super::{AttributeEncoder, Differences, Meshopt, TriangleEncoder, octahedral};
+
+/// All kinds of streams.
+const KINDS: [(Meshopt, Differences); 3] = [
+    (Meshopt::Ext, Differences::Bytes),
+    (Meshopt::Khr, Differences::Bytes),
+    (Meshopt::Khr, Differences::Words),
+];
 
 /// The stream of `elements` that come `piece` at a time.
-fn encoded<const N: usize>(elements: &[[u8; N]], piece: usize) -> Vec<u8> {
-    let (mut encoder, mut stream) = (AttributeEncoder::new(N), Vec::new());
+fn encoded<const N: usize>(
+    (extension, differences): (Meshopt, Differences),
+    elements: &[[u8; N]],
+    piece: usize,
+) -> Vec<u8> {
+    let (mut encoder, mut stream) = (AttributeEncoder::new(N, extension, differences), Vec::new());
     elements.chunks(piece).for_each(|elements| encoder.add(elements.as_flattened(), &mut stream).unwrap());
     encoder.finish(&mut stream).unwrap();
     stream
@@ -46,7 +57,14 @@ fn assert_triangles(corners: &[[u32; 3]]) {
 proptest! {
     #[test]
     fn elements_are_decoded(elements in prop::collection::vec(any::<[u8; 4]>(), 1..1000), piece in 1..300_usize) {
-        prop_assert!(decode_vertex_buffer::<[u8; 4]>(&encoded(&elements, piece), elements.len()).unwrap() == elements);
+        for kind in KINDS {
+            let stream = encoded(kind, &elements, piece);
+            // Noise takes no more than its own bytes, two bits for each group of a byte, and a
+            // header for each block.
+            let most = 4 * elements.len() + 4 * elements.len().div_ceil(64) + elements.len().div_ceil(256) + 100;
+            prop_assert!(stream.len() <= most, "{kind:?}: {} bytes", stream.len());
+            prop_assert!(decode_vertex_buffer::<[u8; 4]>(&stream, elements.len()).unwrap() == elements, "{kind:?}");
+        }
     }
 
     #[test]
@@ -55,8 +73,11 @@ proptest! {
         piece in 1..200_usize,
     ) {
         let elements = near(&steps.into_iter().map(|(place, step)| (place, step as u8)).collect::<Vec<_>>());
-        let decoded = decode_vertex_buffer::<Bytes48>(&encoded(&elements, piece), elements.len()).unwrap();
-        prop_assert!(decoded.into_iter().map(|Bytes48(bytes)| bytes).eq(elements));
+        for kind in KINDS {
+            let stream = encoded(kind, &elements, piece);
+            let decoded = decode_vertex_buffer::<Bytes48>(&stream, elements.len()).unwrap();
+            prop_assert!(decoded.into_iter().map(|Bytes48(bytes)| bytes).eq(elements.iter().copied()), "{kind:?}");
+        }
     }
 
     /// Corners of a few numbers meet in every way; those of many numbers are written out.
@@ -81,6 +102,21 @@ proptest! {
         let bytes = triangles(corners.as_chunks().0).len();
         prop_assert!(bytes < corners.len() / 3 * 2 + 40, "{bytes} bytes for {} triangles", corners.len() / 3);
     }
+}
+
+/// A coordinate along a wave takes fewer bytes as a word: its lower byte passes 255 often, and its
+/// higher byte then differs, too. Zeros take no bytes in version 1.
+#[test]
+fn later_streams_are_shorter() {
+    let wave = |step: u32| ((f64::from(step) * 0.02).sin() * 5000.0) as i16;
+    let places: Vec<_> = (0..1000)
+        .map(|step| {
+            let [low, high] = wave(step).to_le_bytes();
+            [low, high, 0, 0]
+        })
+        .collect();
+    let [ext, khr, words] = KINDS.map(|kind| encoded(kind, &places, 300).len());
+    assert!(khr < ext && 10 * words < 9 * khr, "{ext}, {khr}, {words} bytes");
 }
 
 /// An element of 48 bytes, since arrays of so many have no default.

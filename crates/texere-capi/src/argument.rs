@@ -106,8 +106,9 @@ pub(crate) fn numbered<'a, T>(name: &str, all: &'a [T], number: u64) -> Result<&
     found.ok_or_else(|| Failure::argument(format!("{name} {number}, but there are {}, from 0", all.len())))
 }
 
-/// Writes the length of `text` to `length`, and the text with a zero byte to `words`, which has
-/// room for `size` bytes. If `size` is 0, only the length is written.
+/// Writes the length of `text`, without a zero byte, to `length`, and the text, followed by a zero
+/// byte, to `words`, which has room for `size` bytes. If `size` is 0, only the length is written.
+/// If `size` is too small, the length is written, too, and the call fails.
 ///
 /// # Safety
 ///

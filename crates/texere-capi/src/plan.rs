@@ -48,11 +48,12 @@ impl Handle for texere_plan {
 /// makes them in 2 to 7 ms, and two chunks may be on their way when a run is cancelled.
 const CORE_BYTES: u64 = 16 << 20;
 
-/// The fewest and the most bytes of a chunk's largest buffer. At the end of each chunk cores wait
-/// for the last one, the longer the more cores there are. On two cores a mesh in chunks of 8 MiB
-/// took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB 2 %, in chunks
-/// of 32 MiB no longer. On sixteen cores it took 10 % longer in chunks of 16 MiB. No test breaks
-/// with other values: `c-overhead` and `c-cancel` of texere-bench show them.
+/// The least and the largest limit on the bytes of a chunk's largest buffer. At the end of each
+/// chunk cores wait for the last one, the longer the more cores there are. On two cores a mesh in
+/// chunks of 8 MiB took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB
+/// 2 % longer, and in chunks of 32 MiB as long. On sixteen cores it took 10 % longer in chunks of
+/// 16 MiB. No test breaks with other values: `c-overhead` and `c-cancel` of texere-bench show the
+/// effect.
 const CHUNK_BYTES: [u64; 2] = [32 << 20, 64 << 20];
 
 /// The limits that chunks of plans are cut to.
@@ -73,11 +74,11 @@ pub struct texere_counts {
     pub rings: u64,
     /// How many vertices. The vertices of a ring at which two chunks meet count twice.
     pub vertices: u64,
-    /// Indices.
+    /// How many indices.
     pub indices: u64,
     /// How many triangles the draws draw.
     pub triangles: u64,
-    /// Draws.
+    /// How many draws.
     pub draws: u64,
     /// How many chunks the mesh is made in.
     pub chunks: u64,
@@ -146,7 +147,7 @@ impl Planned {
         self.run_of(self.plan.clone(), *LIMITS, run)
     }
 
-    /// `plan`, a plan of these yarns, on its way through the device, in chunks that fit `limits`.
+    /// Starts to run `plan`, a plan of these yarns, on the device, in chunks that fit `limits`.
     pub(crate) fn run_of(
         &self,
         plan: Arc<Plan>,
@@ -232,7 +233,7 @@ pub unsafe extern "C" fn texere_plan_draws(
 
 /// Lends for each yarn the number of its first ring, and at the end how many rings there are in
 /// all. That is one number more than the plan has yarns. The numbers are valid until the plan is
-/// freed. `*count` becomes how many they are.
+/// freed. `*count` becomes how many numbers there are.
 ///
 /// Fails with TEXERE_ARGUMENT for a null `offsets` or `count`.
 #[unsafe(no_mangle)]

@@ -10,8 +10,8 @@ use crate::handle::{Handle, clear, free, get, give};
 use crate::status::texere_status;
 
 /// The progress of a call that takes long, and whether the call is to end. Other threads read the
-/// one and set the other. A run may be given to one call after another; the progress begins at 0 in
-/// each.
+/// progress, and cancel the run. A run may be given to one call after another; the progress begins
+/// at 0 in each.
 #[derive(Debug)]
 pub struct texere_run;
 
@@ -29,6 +29,9 @@ impl Handle for texere_run {
 
 /// A closure that keeps the progress in `run`, and returns `Break` once `run` is cancelled.
 pub(crate) fn reporter(run: Option<Arc<Run>>) -> impl FnMut(f64) -> ControlFlow<()> + Send {
+    if let Some(run) = &run {
+        run.share.store(0.0_f64.to_bits(), Ordering::Relaxed);
+    }
     move |share| {
         let Some(run) = &run else { return ControlFlow::Continue(()) };
         run.share.store(share.to_bits(), Ordering::Relaxed);

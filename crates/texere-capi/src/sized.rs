@@ -2,8 +2,8 @@
 //!
 //! A program that was built with an earlier header passes a shorter struct, one that was built with
 //! a later header a longer one. The library reads and writes no more than the struct has. A member
-//! that one of the two does not know counts as 0, so 0 in a member that is added later has to mean
-//! what was so without it.
+//! that the program or the library does not know counts as 0. In a member that is added later, 0
+//! therefore means what the library did before the member existed.
 
 use std::mem::MaybeUninit;
 use std::ptr;
@@ -15,9 +15,10 @@ use crate::failure::Failure;
 ///
 /// # Safety
 ///
-/// It is `repr(C)`, begins with the size, and zeros are a value of it.
+/// It is `repr(C)`, begins with the size, and holds only numbers and raw pointers, so that any
+/// bytes are a value of it.
 pub(crate) unsafe trait Growing: Copy {
-    /// The bytes that it had in the first release that had it.
+    /// The struct's size in its first release, bytes.
     const FIRST: usize;
 }
 
@@ -26,11 +27,11 @@ pub(crate) const fn size_of_member<T, M>(_of: fn(&T) -> &M) -> usize {
     size_of::<M>()
 }
 
-/// Says which member of a struct that says its size was the last one in the first release that had
-/// it. Members that are added later change nothing here.
+/// Implements [`Growing`]. `$last` is the struct's last member in its first release. Members that
+/// are added later change nothing here.
 macro_rules! grows_after {
     ($kind:ident, $last:ident) => {
-        // SAFETY: the struct is `repr(C)` and holds numbers and pointers, which may be 0.
+        // SAFETY: the struct is `repr(C)` and holds only numbers and raw pointers.
         unsafe impl $crate::sized::Growing for $kind {
             const FIRST: usize = std::mem::offset_of!($kind, $last)
                 + $crate::sized::size_of_member(|value: &$kind| &value.$last);
@@ -47,7 +48,8 @@ macro_rules! grows_after {
 
 pub(crate) use grows_after;
 
-/// The most bytes of a struct. What says more was not filled in, and is not followed.
+/// The most bytes of a struct. A larger size is taken for memory that was never filled in, and is
+/// refused.
 const MOST: usize = 4096;
 
 /// The bytes that a struct of the caller's says that it has.
@@ -78,8 +80,8 @@ pub(crate) unsafe fn check_sized<T: Growing>(name: &str, pointer: *const T) -> R
     unsafe { size(name, pointer) }.map(|_| ())
 }
 
-/// A struct of the caller's that says its size. Members that it is too short for are 0. It is
-/// refused where a member that this library does not have is not 0.
+/// A struct of the caller's that says its size. Members that it is too short for are 0. The struct
+/// is refused if a member that this library does not have is not 0.
 ///
 /// # Safety
 ///
@@ -87,7 +89,7 @@ pub(crate) unsafe fn check_sized<T: Growing>(name: &str, pointer: *const T) -> R
 pub(crate) unsafe fn sized<T: Growing>(name: &str, pointer: *const T) -> Result<T, Failure> {
     let (own, mut value) = (size_of::<T>(), MaybeUninit::<T>::zeroed());
     // SAFETY: the caller vouches for the bytes that the struct says; no more than `T` has are
-    // written. Zeros are a value of `T`, and so is what comes from the caller's.
+    // written. Any bytes are a value of `T`.
     unsafe {
         let given = size(name, pointer)?;
         let later = std::slice::from_raw_parts(pointer.cast::<u8>(), given).get(own..).unwrap_or_default();
@@ -103,8 +105,8 @@ pub(crate) unsafe fn sized<T: Growing>(name: &str, pointer: *const T) -> Result<
     }
 }
 
-/// Writes a struct to the caller's, all but its size, as far as that reaches. Members that this
-/// library does not have become 0.
+/// Copies `value`, without its size, into the caller's struct, up to that struct's end. Members
+/// that this library does not have become 0.
 ///
 /// # Safety
 ///

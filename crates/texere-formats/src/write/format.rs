@@ -39,7 +39,7 @@ pub enum Format {
     /// asks for it.
     CompressedGlb,
     /// [`Format::CompressedGlb`] with the later extension `KHR_meshopt_compression`: the same
-    /// vertices and triangles in 1 to 4 % fewer bytes. Coordinates are compressed as 16-bit
+    /// vertices and triangles in 2 to 5 % fewer bytes. Coordinates are compressed as 16-bit
     /// numbers, and small differences have shorter codes. Fewer programs know this extension.
     ///
     /// No extension stands for this format alone:

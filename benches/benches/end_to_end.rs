@@ -1,4 +1,5 @@
-//! Times the way from a design file to its mesh, in new memory and as a file.
+//! Measures how long it takes to get from a design file to its mesh, in newly allocated memory and
+//! as a file.
 #![allow(
     missing_docs,
     clippy::unwrap_used,

@@ -12,7 +12,7 @@ use stage::{Bench, Floor, timed};
 use texere::Pipeline;
 use texere_bench::{DEVICES, paper_cloth, sizes};
 
-/// The number of ends of the largest cloth that is written, each time to a file of half a gigabyte.
+/// The number of ends of the largest cloth that is written: 0.35 GB as GLB, 0.78 GB as PLY.
 const LARGEST_ENDS: usize = 815;
 
 fn export(criterion: &mut Criterion) {

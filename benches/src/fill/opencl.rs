@@ -113,8 +113,8 @@ impl OpenClFill {
 
 impl Drop for OpenClFill {
     fn drop(&mut self) {
-        // SAFETY: the memory was mapped once, and nothing uses it any more. A queue that is lost
-        // has unmapped it.
+        // SAFETY: the memory was mapped once, and nothing uses it any more. An error can't be acted
+        // on here.
         let _ = unsafe { self.queue.enqueue_unmap_mem_object(self.pinned.get(), self.mapped, &[]) };
     }
 }

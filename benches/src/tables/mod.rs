@@ -51,9 +51,10 @@ pub fn write(
     Ok(())
 }
 
-/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`. Prints
-/// the times as a table, and draws the paper's figure 5 of them to `output`, an SVG file, unless a
-/// design was read from that file.
+/// Times geometry, buffers and drawing of `designs` on `device`, a name such as `wgpu:0`, and
+/// geometry on one core of the CPU as well. Prints the times as a table, and draws the paper's
+/// figure 5 of them to `output`, an SVG file. Fails before anything is timed if a design was read
+/// from that file.
 ///
 /// # Errors
 ///
@@ -117,7 +118,7 @@ fn phases(devices: &[String], cloths: &[Cloth]) -> Result<Vec<Phases>, Box<dyn E
 }
 
 fn run(bench: &mut Bench, info: &DeviceInfo, rounds: usize) -> Result<Run, Box<dyn Error>> {
-    // A first run, which allocates and compiles, is not counted.
+    // A first run of the stages, which may allocate, is not counted.
     bench.staged()?;
     let (mut trajectory, mut mesh, mut whole) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds {

@@ -24,7 +24,7 @@ pub(crate) struct Texel {
     color: Vec3,
     normal: Vec3,
     height: f32,
-    /// The sum of the squares of the fibres' widths α.
+    /// The sum of α², where α is the width of the highlight of the yarn that a sample shows.
     width: f32,
     /// The number of the yarn in the texel's middle, plus 1. 0 stands for no yarn.
     pub(crate) yarn: u32,
@@ -50,8 +50,8 @@ impl Texel {
         self.height * self.share()
     }
 
-    /// The width α of the texel's microfacets. The square of α is the sum of the square of the
-    /// fibres' α and twice the variance of the texel's normals.
+    /// The width α of the texel's highlight. α² is the mean α² of the yarns that it shows, and
+    /// twice the variance of its normals.
     pub(crate) fn width(&self) -> f32 {
         let length = self.normal().length().clamp(1e-3, 1.0);
         (self.width * self.share() + 2.0 * (1.0 - length) / length).sqrt()
@@ -64,7 +64,7 @@ pub(crate) struct Look<'a> {
     subdivisions: usize,
     /// The sign of x and z: 1 for the face, and -1 for the back, which is turned over.
     over: f32,
-    /// The number of each yarn, its colour, and the square of the width α of its fibres.
+    /// The number of each yarn, its colour, and α², where α is the width of its highlight.
     each: Vec<(u32, Vec3, f32)>,
     /// The origin and material that each number stands for.
     numbered: Vec<(Origin, u32)>,

@@ -66,7 +66,7 @@ impl Cloth {
             print::text(&format!("warning: {}\n", line(warning)))?;
         }
         if let Some(settling) = self.settling {
-            print::text(&format!("settling: {}\n", line(settling)))?;
+            print::text(&settling::said(&settling))?;
         }
         print::text(&written)
     }

@@ -36,9 +36,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Fail> {
 struct Shown {
     outputs: Vec<Output>,
     yarns: Yarns,
-    /// Whether threads lie so close that coarse tubes would pierce one another.
+    /// Whether the cloth is woven cloth at rest, whose flattened threads lie so close that coarse
+    /// tubes would pierce one another.
     lies_close: bool,
-    /// The x of each end's middle line in woven cloth, and the y of each pick's, mm.
+    /// The x of each end's centreline in woven cloth, and the y of each pick's, mm.
     middles: [Vec<f64>; 2],
     settling: Option<SettlingReport>,
 }
@@ -66,7 +67,7 @@ impl Shown {
     }
 }
 
-/// The x of each end's middle line among saved yarns, and the y of each pick's, mm.
+/// The x of each end's centreline among saved yarns, and the y of each pick's, mm.
 fn saved_middles(yarns: &Yarns) -> [Vec<f64>; 2] {
     let mut middles = [Vec::new(), Vec::new()];
     for (number, yarn) in yarns.layout().yarns().iter().enumerate() {
@@ -108,7 +109,7 @@ fn whole_run(args: &RenderArgs, renderer: &Renderer, stages: &mut Stages) -> Res
     scene.set_background(args.background);
     let cameras = cameras(args, middles, scene.extent())?;
     let quality = Quality { supersampling: args.supersampling, ..Quality::default() };
-    let mut text = settling.map(|settling| format!("settling: {}\n", line(settling))).unwrap_or_default();
+    let mut text = settling.iter().map(settling::said).collect::<String>();
     if let Some(warning) = undersampled(&yarns, &settings) {
         // Writing to a string can't fail.
         let _ = writeln!(text, "warning: {}", line(warning));
@@ -143,7 +144,7 @@ fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, 
     let checked = paths.into_iter().map(|path| {
         let output = Output::to(&path).sparing(read);
         output.check()?;
-        // A file that does not exist yet is no link to another.
+        // It fails for a file that does not exist yet, and such a file is no link to another.
         let real = fs::canonicalize(&path).ok();
         if real.is_some_and(|real| !taken.insert(real)) {
             Err(Fail::written_twice(&path))
@@ -178,8 +179,9 @@ fn cameras(args: &RenderArgs, middles: [Vec<f64>; 2], extent: &Extent) -> Result
     Ok(vec![camera])
 }
 
-/// The point that was asked for, or else the middle of the cloth. A cut of woven cloth goes through
-/// the thread nearest to the middle instead, since a cut between two threads shows nothing.
+/// The point that was asked for, or else the middle of the cloth. A cut of woven cloth runs along
+/// the thread nearest to the middle instead: between two threads it would show sections of the
+/// other set alone.
 fn point_shown(args: &RenderArgs, [ends, picks]: [Vec<f64>; 2], extent: &Extent) -> Result<[f32; 2], Fail> {
     let ([left, lower, _], [right, upper, _]) = (extent.low, extent.high);
     if let Some([x, y]) = args.at {
@@ -240,7 +242,7 @@ impl std::fmt::Display for Stages {
             write!(f, "{name} {}, ", milliseconds(*time))?;
         }
         let all = self.0.iter().map(|(_, time)| *time).sum();
-        write!(f, "all but the device {}", milliseconds(all))
+        write!(f, "together, without opening the device, {}", milliseconds(all))
     }
 }
 

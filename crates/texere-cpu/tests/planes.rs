@@ -1,5 +1,5 @@
-//! Yarns in planes of constant x or y, whose steps the scan does not work out, have the same bits
-//! as in the reference.
+//! Yarns that stay in a plane of constant x or y. The scan does not work out how they turn from
+//! ring to ring. Their meshes equal those of the reference to the bit.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -17,7 +17,8 @@ impl Dice {
 }
 
 /// A yarn of `count` points in a plane, on a coarse grid. It goes straight on for a while, and here
-/// and there it turns back, climbs or repeats a point. If `bulges`, it leaves the plane once.
+/// and there it turns back, climbs or repeats a point. The plane is one of constant y if `swapped`,
+/// else one of constant x. If `bulges`, the yarn leaves the plane once.
 fn walk(dice: &mut Dice, count: usize, swapped: bool, bulges: bool) -> Vec<ControlPoint> {
     let (mut along, mut z) = (0.0, 0.0);
     let mut forward = 1.0;
@@ -41,7 +42,7 @@ fn mesh(yarns: &Yarns, subdivisions: u32, device: &dyn Backend) -> Mesh {
 #[test]
 fn the_last_ring_of_a_closed_yarn_stands_still_where_what_follows_is_far_away() {
     // From ring 64, where a block starts, the yarn goes on along y to the last ring, which is ring
-    // 0 again. But the point after the next one is very far away. Compared with that distance, the
+    // 0 again. Point 1 is near, but point 2 is very far away. Compared with that distance, the
     // velocity at the first ring and at the last ring counts as zero.
     let mut points: Vec<_> = (0..80).map(|k| [0.0, 0.001 * (k as f32 - 80.0), 0.0]).collect();
     (points[0], points[1], points[2]) = ([0.0; 3], [0.0, 0.001, 0.0], [2000.0, 0.0, 2000.0]);

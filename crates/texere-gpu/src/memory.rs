@@ -9,9 +9,10 @@ use crate::upload::Ends;
 
 /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the meshes of
 /// all chunks of `plan`. Each entry names what a buffer holds, and gives the buffer's bytes. The
-/// buffers of the two chunks in flight come last. `limits` are the limits that chunks are cut to,
-/// both by the caller and in a [scan](texere_core::backend::Session::with_limits). If the chunks of
-/// the scan are larger than the caller's, tables are as large as the scan needs them.
+/// buffers of the two chunks in flight come last. `limits` are the limits to which the chunks of
+/// the caller and those of a [scan](texere_core::backend::Session::with_limits) are cut. A scan has
+/// chunks of the whole cloth. Where these are larger than the caller's, whose plan may be of a
+/// region, tables are as large as the scan needs them.
 ///
 /// These are not counted:
 /// - the rounding up of each buffer to what kernels read at a time,
@@ -51,8 +52,8 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
         ("rolls", turns * size_of::<Turn>() as u64),
     ];
     // Chunks are loaded into the two slots alternately, and a slot's memory grows to that of the
-    // largest chunk in it. A scan goes through the chunks first, for their tables alone. If a scan
-    // has more than two chunks, it changes which chunk is loaded into which slot.
+    // largest chunk in it. A scan loads the tables of its chunks first. If it has more than two,
+    // the caller's first chunk comes into the slot after that of the scan's last one.
     let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
     let shift = if scanned > 2 { scanned } else { 0 };
     let mut places = [[0; 4]; 2];

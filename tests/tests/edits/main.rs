@@ -383,7 +383,7 @@ fn what_a_plan_has_no_room_for_is_named() {
     let same = Yarn::default();
     assert_eq!(said(0, same, 5), "yarn 0 of 5 control points, but the plan has room for 4");
     assert_eq!(said(0, same, 1), "yarn 0 of 1 control point, fewer than 2");
-    assert_eq!(said(1, same, 3), "yarn 1, but there are 1, counted from 0");
+    assert_eq!(said(1, same, 3), "there is no yarn 1: there are 1, numbered from 0");
     let closed = Yarn { closed: true, ..same };
     assert_eq!(said(0, closed, 3), "yarn 0 can't be closed or opened: that takes a new plan");
     let other = Yarn { section: 2, ..same };

@@ -59,7 +59,7 @@ fn one_yarn_that_is_refused_leaves_all_as_they_were() {
     let refusals = [
         ((3, line(3, 41)), "yarn 3 of 41 control points, but the plan has room for 40"),
         ((3, line(3, 1)), "yarn 3 of 1 control point, fewer than 2"),
-        ((4, line(4, 20)), "yarn 4, but there are 4, counted from 0"),
+        ((4, line(4, 20)), "there is no yarn 4: there are 4, numbered from 0"),
         ((3, nowhere), "z of point 19 of yarn 3 is NaN"),
         (
             (3, (Yarn { twist: 1.0, ..Yarn::default() }, line(3, 20).1)),
@@ -83,7 +83,9 @@ fn one_yarn_that_is_refused_leaves_all_as_they_were() {
             assert!(Arc::ptr_eq(live.plan(), &plan), "{said}");
             assert_eq!((live.traffic().uploaded, live.update().unwrap()), (sent, Vec::new()), "{said}");
         }
-        assert!(read(&mut live).vertices == mesh.vertices);
+        // Bit by bit: where a yarn has room and no rings yet, memory may hold bits of no number.
+        let bits = |vertices: &[Vertex]| bytemuck::cast_slice::<_, u32>(vertices).to_vec();
+        assert!(bits(&read(&mut live).vertices) == bits(&mesh.vertices));
         // The two valid yarns are accepted without the third.
         let edits = BTreeMap::from([(0, line(0, 33)), (2, line(2, 7))]);
         live.set_yarns(&edits_of(&edits)).unwrap();

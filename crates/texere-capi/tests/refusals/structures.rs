@@ -1,4 +1,5 @@
-//! Calls about designs from arrays, finishes and files of designs, with one wrong argument each.
+//! Calls with wrong arguments: those that make designs of arrays, set finishes, and read and write
+//! files of designs.
 
 use std::ptr::{null, null_mut};
 

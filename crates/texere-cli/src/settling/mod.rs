@@ -11,8 +11,14 @@ use texere::{Backend, BackendError, Cloth, Design};
 
 use crate::args::SettlingArgs;
 use crate::fail::Fail;
-use crate::{drivers, progress};
+use crate::{drivers, progress, terminal};
 use plot::plot;
+
+/// The line of a report about settling. Each clause of it is short enough for a terminal.
+pub(crate) fn said(report: &SettlingReport) -> String {
+    let clauses: Vec<_> = report.to_string().split("; ").map(terminal::line).collect();
+    format!("settling: {}\n", clauses.join("; "))
+}
 
 /// The cloth of a design, with splines of `tension`. If its yarns settle, by the command line or
 /// else by the design, the device that `open` gives does the work, and there is a report.

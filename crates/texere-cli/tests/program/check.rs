@@ -57,24 +57,31 @@ fn our_own_designs_are_clean() {
 fn cloth_at_rest_is_jammed_where_its_fibres_have_no_room() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("cloth.toml");
-    let written = |spacing: f64, yarn: &str| {
+    let written = |spacing: f64, tex: f64, yarn: &str| {
         let text = format!(
-            "[weave]\nnotation = \"plain\"\nends = 12\npicks = 12\n[yarns.a]\ntex = 30.0\n{yarn}\n\
+            "[weave]\nnotation = \"plain\"\nends = 12\npicks = 12\n[yarns.a]\ntex = {tex}\n{yarn}\n\
              [warp]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n[weft]\nyarns = [\"a\"]\nspacing_mm = {spacing}\n"
         );
         std::fs::write(&path, text).unwrap();
         check(&path, &[])
     };
     let needed = ["", "packing = 0.9"].map(|yarn| {
-        let (code, report) = written(0.205, yarn);
+        let (code, report) = written(0.205, 30.0, yarn);
         assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{yarn}");
         let words = stdout(&texere(&["check", path.to_str().unwrap()]));
         assert!(words.contains("jammed, not at rest"), "{words}");
         assert!(words.contains("threads are as dense as their fibres allow, and lack "), "{words}");
+        assert!(!words.contains('…'), "{words}");
         let wider = cure(&report, "warp.spacing_mm, weft.spacing_mm").unwrap_or_else(|| panic!("{words}"));
         let (spacing, _) = wider["value"].as_str().unwrap().split_once(", ").unwrap();
         let spacing: f64 = spacing.parse().unwrap();
-        assert_eq!(written(spacing, yarn).0, 0, "{spacing}");
+        assert_eq!(written(spacing, 30.0, yarn).0, 0, "{spacing}");
+        // The thinner yarn of the cure is one of less tex, as a design without a diameter gives it.
+        let thinner = cure(&report, "diameter_mm of every yarn").unwrap_or_else(|| panic!("{words}"));
+        let effect = thinner["effect"].as_str().unwrap();
+        let (_, times) = effect.split_once("with ").unwrap_or_else(|| panic!("{effect}"));
+        let (times, _) = times.split_once(" times its tex").unwrap_or_else(|| panic!("{effect}"));
+        assert_eq!(written(0.205, 30.0 * times.parse::<f64>().unwrap(), yarn).0, 0, "{effect}");
         spacing
     });
     assert!(needed[1] < needed[0], "{needed:?}");

@@ -71,7 +71,8 @@ fn a_cloth_that_pierces_itself_comes_to_rest_and_is_clean() {
         assert!((0.5..1.0).contains(&mean) && least <= mean, "{settling}");
     }
     let text = stdout(&texere(&["check", &cloth]));
-    assert!(text.contains("passes on cpu, 6 by 6 threads; clearance ") && text.contains("area left of ends"));
+    let clauses = ["passes on cpu, 6 by 6 threads\n", "  clearance ", "  area left of ends "];
+    assert!(clauses.iter().all(|clause| text.contains(clause)), "{text}");
 
     // inspect measures the settled yarns.
     let (_, plain) = json(&["inspect", &cloth, "--no-settle"]);

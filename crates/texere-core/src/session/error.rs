@@ -11,10 +11,10 @@ use crate::{BackendError, OutOfMemory, PlanError, YarnError};
 pub enum SessionError {
     /// A mesh that is edited needs a plan of the whole cloth, and this plan is of a
     /// [region](crate::backend::Plan::within).
-    #[error("a mesh that is edited is of the whole cloth, and the plan is of a region of it")]
+    #[error("to edit a mesh takes a plan of the whole cloth, and this plan is of a region of it")]
     Region,
     /// There is no yarn of this number.
-    #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
+    #[error("there is no yarn {yarn}: there are {yarns}, numbered from 0")]
     NoYarn {
         /// The number that was given.
         yarn: usize,
@@ -42,8 +42,9 @@ pub enum SessionError {
         /// The name of the call that has to come first.
         needed: &'static str,
     },
-    /// The settler's yarns have other numbers of control points than the session's.
-    #[error("the settler's yarns have other numbers of control points than the session's")]
+    /// The settler has more or fewer yarns than the session, or a yarn of it has more or fewer
+    /// control points.
+    #[error("the settler's yarns or their control points are not as many as the session's")]
     OtherYarns,
     /// The chunk belongs to another plan than the session's.
     #[error("chunk {chunk} is of another plan than the session's")]
@@ -51,14 +52,15 @@ pub enum SessionError {
         /// The chunk's index.
         chunk: u64,
     },
-    /// A chunk was read for which the stage has not run, or whose memory has been reused since.
+    /// A chunk was read before the stage that makes its data, or after its memory was used for
+    /// another chunk.
     #[error("chunk {chunk} is not in flight")]
     NotInFlight {
         /// The chunk's index.
         chunk: u64,
     },
     /// There is no chunk of this number.
-    #[error("chunk {chunk}, but there are {chunks}, counted from 0")]
+    #[error("there is no chunk {chunk}: there are {chunks}, numbered from 0")]
     NoChunk {
         /// The number that was given.
         chunk: usize,
@@ -66,7 +68,7 @@ pub enum SessionError {
         chunks: usize,
     },
     /// An output slice does not have exactly the planned length.
-    #[error("{what} has room for {given}, but the chunk has {planned}")]
+    #[error("the slice for {what} has room for {given}, but {planned} are made")]
     OutputLength {
         /// The slice: `vertices` or `indices`.
         what: &'static str,

@@ -1,4 +1,4 @@
-//! The form of one loop: the places of its feet, legs and head.
+//! The form of one loop among its neighbours: on which side of them each of its parts lies.
 //!
 //! [`Form::points`] lays a loop from foot to foot. It takes the plain loop of `shape.rs`, and puts
 //! each part on the side, face or back, on which the part has to pass other loops.

@@ -1,7 +1,8 @@
-//! The plain loop: the places of its feet, legs and head.
+//! The table of the plain loop: the nodes of its feet, legs and head.
 //!
-//! Every loop of a weft knit starts from the table of this file. A plain loop is symmetrical. Each
-//! half has five nodes, and the head joins both halves. The yarn is the spline through the nodes.
+//! Every loop of a weft knit starts from this table. A plain loop is symmetrical. Each half has
+//! five nodes, from the foot to the shoulder. The head lies between both halves, and an arc between
+//! one loop and the next. The yarn is the spline through the nodes.
 //!
 //! | node | half the width of the loop | height | z |
 //! |---|---|---|---|

@@ -22,11 +22,11 @@ impl KnitYarn {
     }
 }
 
-/// The number of control points of a stitch.
+/// The number of control points of each loop and of each float or underlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cells {
     /// The number that the bends of the yarn need. In a weft knit it is 12 for a plain loop, and 3
-    /// for a float past a needle.
+    /// for a float past a needle. In a warp knit it grows with the length of underlaps.
     #[default]
     Round,
     /// In a weft knit, 12 for each needle that the yarn comes to, whether it makes a loop there or

@@ -61,7 +61,7 @@ pub(super) const STRIDE: f32 = 3.34;
 /// lie exactly a stride away. Rounding must not decide whether it counts as further away.
 pub(super) const ROUNDING: f32 = 1e-3;
 
-/// Threads of one height, with the threads that they cross.
+/// Threads of one thickness, with the threads that they cross.
 #[derive(Clone, Copy)]
 pub(super) struct Bend<'a> {
     pub(super) shape: Shape,

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::bend::{Bend, ROUNDING, STRIDE};
 use super::shape::Shape;
 
-/// The path of all threads of one height across the threads that they cross. Everything that does
-/// not depend on the sides on which a thread lies is computed once.
+/// The path of all threads of one thickness across the threads that they cross. Everything that
+/// does not depend on the sides on which a thread lies is computed once.
 pub(super) struct ThreadPath<'a> {
     bend: Bend<'a>,
     /// Places where the threads enter the cloth and where they leave it, mm along the thread.
@@ -126,8 +126,8 @@ impl<'a> ThreadPath<'a> {
     }
 }
 
-/// The crossings of threads of one height, in the order in which the threads run. With `back` the
-/// threads run against the order of the threads that they cross.
+/// The crossings of threads of one thickness, in the order in which the threads run. With `back`
+/// the threads run against the order of the threads that they cross.
 pub(super) fn stations(bend: &Bend<'_>, back: bool) -> Arc<[Station]> {
     let count = bend.crossed.at.len();
     let number = |step: usize| if back { count - 1 - step } else { step };

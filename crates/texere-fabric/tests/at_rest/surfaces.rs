@@ -101,8 +101,8 @@ impl Surfaces {
         for (yarn, rings) in self.yarns.iter().enumerate() {
             for ring in rings {
                 let [x, y] = key(ring.middle);
-                // For every other yarn, its rings near this ring. Its surface is searched between
-                // them.
+                // For every other yarn, the numbers of its rings near this ring. Its surface is
+                // searched from the ring before the first of these to the ring after the last.
                 let mut near: HashMap<usize, Vec<usize>> = HashMap::new();
                 for (dx, dy) in (-2..=2).flat_map(|dx| (-2..=2).map(move |dy| (dx, dy))) {
                     for &(other, number) in cells.get(&[x + dx, y + dy]).into_iter().flatten() {
@@ -119,7 +119,8 @@ impl Surfaces {
                         let (sin, cos) = (side as f64 / SIDES as f64 * std::f64::consts::TAU).sin_cos();
                         let out = ring.side * cos + ring.up * sin;
                         // The factor at which the section of the other yarn reaches the point of
-                        // this one, less the factor by which both have grown.
+                        // this one, less the factor by which both have grown: negative if the point
+                        // lies inside the other yarn.
                         let left =
                             |growth: f64| inside(rings, ring.middle + out * growth).map(|far| far - growth);
                         if left(least).is_some_and(|left| left < 0.0) {
@@ -175,8 +176,8 @@ impl Surfaces {
         high - low
     }
 
-    /// Shares of the area between two corners that show the ground and the weft, seen straight from
-    /// above.
+    /// The share of the rectangle between two corners where no yarn lies, and the share where the
+    /// weft lies on top, seen straight from above.
     pub(crate) fn seen(&self, corners: [DVec2; 2], pixels: usize) -> [f64; 2] {
         let mut screen = vec![(f64::NEG_INFINITY, false); pixels * pixels];
         let scale = (corners[1] - corners[0]) / pixels as f64;
@@ -214,8 +215,9 @@ impl Surfaces {
     }
 }
 
-/// The factor by which sections of rings have to grow to reach a place between two of them: 1 on
-/// their outline. None if the place lies between no two neighbouring rings.
+/// The least factor by which a section between two neighbouring rings has to grow to reach `place`:
+/// below 1 inside of the yarn, and 1 on its surface. None if the place lies between no two
+/// neighbouring rings.
 fn inside(rings: &[Ring], place: DVec3) -> Option<f64> {
     let mut least: Option<f64> = None;
     let before = |ring: &Ring| (place - ring.middle).dot(ring.tangent);

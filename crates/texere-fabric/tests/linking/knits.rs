@@ -66,7 +66,7 @@ impl Knit {
 
     /// Points of all courses, moved by `to`. `to` gets the course and the wale, the number of the
     /// point in its loop, and the position of the point relative to the loop's start. Unless yarns
-    /// repeat (`repeats`), each ends with the first point of the loop after its last one.
+    /// repeat (`repeats`), each ends with the first point of the loop that would follow.
     fn lines(
         &self,
         repeats: bool,
@@ -140,8 +140,9 @@ fn refined(line: &[[f32; 3]], finer: usize) -> Vec<[f32; 3]> {
     points
 }
 
-/// Closed tricot with 9 points for each course. Each guide laps one needle to the left, then one to
-/// the right. `to` moves points as in [`Knit::yarns`], by guide and course.
+/// Closed tricot with 9 points for each course. Each guide laps over one needle, then over the
+/// needle beside it, and so on: 1-0/1-2. `to` moves points as in [`Knit::yarns`], by guide and
+/// course.
 pub(crate) fn tricot(
     guides: usize,
     courses: usize,

@@ -191,8 +191,8 @@ fn section(bytes: &mut Bytes<'_>) -> Result<Section, ReadError> {
         section::LOBED => {
             let plies = bytes.word("a section's plies")?;
             let valley = bytes.float("a section's valley")?;
-            // 0 stands for the valley of plies that nothing presses.
-            if valley == 0.0 { Section::plied(plies) } else { Section::Lobed { plies, valley } }
+            // 0 stands for the valley of plies that nothing presses. -0 is no valley.
+            if valley.to_bits() == 0 { Section::plied(plies) } else { Section::Lobed { plies, valley } }
         }
         section::POLYGON => {
             let corners = "the number of a section's corners";

@@ -241,11 +241,8 @@ impl CheckReport {
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let clearance = ClearanceReport::from(&self.diagnosis.clearance);
         let curvature = CurvatureReport::from(&self.diagnosis.clearance.bend);
-        let mut lines = Vec::new();
+        let mut lines: Vec<_> = self.settling.iter().flat_map(SettlingReport::lines).collect();
         let mut line = |what: &'static str, said: String| lines.push((what, said));
-        if let Some(settling) = &self.settling {
-            line("settling", settling.to_string());
-        }
         line("clearance", clearance.to_string());
         line("bends", curvature.to_string());
         line("drawn", self.drawn.narrowest());

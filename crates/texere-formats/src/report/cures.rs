@@ -81,9 +81,11 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
             let value = if *relief == Relief::Shrink { "\"shrink\"" } else { "\"flatten\"" };
             ("cloth.jam", value.into(), relieved(report, *thickest_mm))
         }
-        Remedy::Circle => {
-            ("section of every yarn", "{ shape = \"circle\" }".into(), "round yarns of the same area".into())
-        }
+        Remedy::Circle => (
+            "section of every yarn",
+            "{ shape = \"circle\" }".into(),
+            "round yarns of the same area, without flatness or plies".into(),
+        ),
         Remedy::Flatness(flatness) => {
             ("flatness of every yarn", flatness.to_string(), "flatter yarns of the same area".into())
         }
@@ -100,7 +102,13 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
         Remedy::Diameter { thickest_mm: [before, after] } if LENGTHS_MM.contains(after) => (
             "diameter_mm of every yarn",
             format!("{after:.4}"),
-            format!("at most that instead of {before:.4} mm"),
+            // The cure is the same cloth at another scale, so that a yarn's tex changes with the
+            // square of its diameter.
+            format!(
+                "for the thickest instead of {before:.4} mm, every yarn {:.4} times as thick, with {:.4} times its tex",
+                after / before,
+                (after / before).powi(2)
+            ),
         ),
         _ => return None,
     })

@@ -169,7 +169,7 @@ impl InspectReport {
                 .map(|(number, bar)| (if number == 0 { "guide bars" } else { "" }, bar.to_string()));
             lines.extend(named);
         }
-        lines.extend(self.settling.iter().map(|settling| ("settling", settling.to_string())));
+        lines.extend(self.settling.iter().flat_map(SettlingReport::lines));
         lines.extend(self.cloth.iter().flat_map(ClothReport::lines));
         if let Some(under) = &self.at {
             let none = under.is_empty().then(|| "no yarn".into());

@@ -4,7 +4,7 @@ mod knit;
 mod relaxed;
 mod woven;
 
-use std::fmt;
+use std::{fmt, iter};
 
 use serde::Serialize;
 use texere_fabric::{ClothClearance, Finished};
@@ -67,6 +67,13 @@ impl SettlingReport {
             Settling::Woven(report) => report.clearance = clearance.least(),
             Settling::Refused { .. } => {}
         }
+    }
+
+    /// The report for people: a label and what is said, a line for each clause. A terminal shows
+    /// only the start and the end of a long line.
+    pub(super) fn lines(&self) -> Vec<(&'static str, String)> {
+        let labels = iter::once("settling").chain(iter::repeat(""));
+        labels.zip(self.to_string().split("; ").map(str::to_owned)).collect()
     }
 
     /// A warning if the press was not reached.

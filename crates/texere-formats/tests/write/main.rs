@@ -1,4 +1,5 @@
-//! Written files, read back by other readers; and the files that are left when writing fails.
+//! Files that texere writes, read back: meshes by other crates or by readers of these tests,
+//! designs by texere itself. Also the files that are left when writing fails.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
 
 mod attributes;

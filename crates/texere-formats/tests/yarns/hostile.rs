@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use texere_core::Section;
 use texere_formats::read::yarns_from;
 use texere_formats::{ReadError, read, write};
 
@@ -156,6 +157,7 @@ fn every_field_is_checked() {
         (SECTIONS_AT + 4 * 12 + 4, &word(13), "section 4 is not sound: plies is 13"),
         (SECTIONS_AT + 4 * 12 + 8, &float(0.4), "section 4 is not sound: valley is 0.4, outside 0.5 to 1"),
         (SECTIONS_AT + 4 * 12 + 8, &nan, "section 4 is not sound: valley is NaN"),
+        (SECTIONS_AT + 4 * 12 + 8, &float(-0.0), "section 4 is not sound: valley is -0, outside 0.5 to 1"),
         (
             SECTIONS_AT + 5 * 12 + 4,
             &word(u32::MAX),
@@ -185,6 +187,16 @@ fn every_field_is_checked() {
         let said = refused(&changed(file(), at, bytes));
         assert!(said.contains(why), "byte {at}: {said}");
     }
+}
+
+/// 0 and the number that it stands for are one valley.
+#[test]
+fn the_valley_of_plies_that_nothing_presses_may_be_a_number() {
+    let plied = Section::plied(5);
+    let Section::Lobed { valley, .. } = plied else { panic!("{plied:?}") };
+    let named = changed(file(), SECTIONS_AT + 4 * 12 + 8, &valley.to_le_bytes());
+    assert!(named != file());
+    assert_eq!(yarns_from("cloth.yarns", &named).unwrap().yarns.layout().sections()[4], plied);
 }
 
 /// A reader takes little memory for counts of more items than the file can hold.

@@ -17,7 +17,7 @@ pub enum LiveError {
     )]
     NotWoven,
     /// No yarn has this number.
-    #[error("yarn {yarn}, but there are {yarns}, counted from 0")]
+    #[error("there is no yarn {yarn}: there are {yarns}, numbered from 0")]
     NoYarn {
         /// The number, counted from 0.
         yarn: usize,
@@ -25,7 +25,7 @@ pub enum LiveError {
         yarns: usize,
     },
     /// No material has this number.
-    #[error("material {material}, but there are {materials}, counted from 0")]
+    #[error("there is no material {material}: there are {materials}, numbered from 0")]
     NoMaterial {
         /// The number, counted from 0.
         material: usize,

@@ -1,6 +1,7 @@
 //! An image in memory.
 
-/// An image as its decoder gives it, and how it is turned. It is within the limits of images.
+/// An image as its decoder gives it, and how it is turned. Its size is within the limits that
+/// `limits.rs` sets.
 pub(crate) struct Image {
     pub(super) width: usize,
     pub(super) height: usize,
@@ -12,9 +13,9 @@ pub(crate) struct Image {
 }
 
 /// The turn of an image before it is shown, as TIFF and Exif number it: 1 no turn, 2 mirrored left
-/// to right, 3 half a turn, 4 mirrored top to bottom, 5 mirrored at the falling diagonal, 6 a
-/// quarter turn clockwise, 7 mirrored at the rising diagonal, 8 a quarter turn counter-clockwise.
-/// Other numbers turn nothing.
+/// to right, 3 half a turn, 4 mirrored top to bottom, 5 mirrored at the diagonal from top left to
+/// bottom right, 6 a quarter turn clockwise, 7 mirrored at the diagonal from bottom left to top
+/// right, 8 a quarter turn counter-clockwise. Other numbers turn nothing.
 ///
 /// **Source**: TIFF revision 6.0, Adobe 1992, page 36.
 #[derive(Debug, Clone, Copy)]

@@ -50,7 +50,7 @@ impl Grid {
                 let (length_mm, limit_mm) = (2.0 * reach, LENGTH_MOST_MM);
                 return Err(WriteError::TooLongToPack { yarn, length_mm, limit_mm });
             }
-            // A step of next to nothing would have no inverse.
+            // The step is the scale of a node. Readers can't invert one of next to nothing.
             let step = (reach / STEPS).max(STEP_LEAST_MM);
             Ok(Self { middle, step })
         };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use texere_core::backend::{LiveMesh, Plan};
-use texere_core::{ControlPoint, Frame, Settings, Yarn};
+use texere_core::{ControlPoint, Frame, Settings, Vertex, Yarn};
 
 use super::{Edit, Fabric, ROOM, editing, edits_of, ends_as_fresh, read, yarns_of};
 

@@ -115,13 +115,35 @@ fn test(steps: &mut Steps) {
     install(steps, "software devices", &SOFTWARE_DEVICES);
     install(steps, "a screen", &SCREEN);
     consumer(steps);
-    // Many tests keep one core busy. Those of the Python package run beside them.
+    // The tests of the Python package run beside those in Rust.
+    steps.beside(tests, |steps| python(steps, Build::Tested));
+}
+
+/// Builds and runs the tests in Rust, in two halves beside each other, because many tests keep one
+/// core busy. Both halves choose from all packages: of a part of them, the dependencies would have
+/// other features and would be compiled again.
+fn tests(steps: &mut Steps) {
+    let packages = match workspace::packages() {
+        Ok(packages) => packages,
+        Err(error) => return steps.fail(error),
+    };
+    let run = ["test", "--workspace", "--locked"];
+    steps.cargo("tests, built", &[&run[..], &["--all-targets", "--no-run"]].concat(), &[]);
+    // Each half takes about half of the time. A name counts once, whatever packages have it.
+    let names: BTreeSet<_> = packages.iter().flat_map(|package| &package.tests).collect();
+    let chosen = |later: bool| {
+        let half = names.iter().filter(move |name| (name.as_str() >= "n") == later);
+        half.flat_map(|name| ["--test", name.as_str()])
+    };
+    let others = ["--lib", "--bins", "--examples", "--benches"];
+    let first: Vec<_> = run.into_iter().chain(others).chain(chosen(false)).collect();
+    let second: Vec<_> = run.into_iter().chain(chosen(true)).collect();
     steps.beside(
         |steps| {
-            steps.cargo("tests", &["test", "--workspace", "--all-targets", "--locked"], &[]);
-            steps.cargo("doctests", &["test", "--workspace", "--doc", "--locked"], &[]);
+            steps.cargo("tests, first half", &first, &[]);
+            steps.cargo("doctests", &[&run[..], &["--doc"]].concat(), &[]);
         },
-        |steps| python(steps, Build::Tested),
+        |steps| steps.cargo("tests, second half", &second, &[]),
     );
 }
 
@@ -205,8 +227,9 @@ fn check(steps: &mut Steps) {
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
     }
     if !steps.succeeds("cargo", &["deny", "--version"]) {
-        // Without optimisation, because it is compiled for much longer than it runs.
-        steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked", "--debug"], &[]);
+        // Without optimisation or debug info, because it is compiled for much longer than it runs.
+        let plain = [("CARGO_PROFILE_DEV_DEBUG", "false")];
+        steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked", "--debug"], &plain);
     }
     // Advisories need a database that is fetched from the net at run time; the weekly workflow
     // checks them.

@@ -60,6 +60,7 @@ mod tests {
         Package {
             name: "texere-a".into(),
             published: true,
+            tests: Vec::new(),
             roots: Vec::new(),
             needs: vec!["texere-b".into()],
             unsaid: Vec::new(),

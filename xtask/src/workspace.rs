@@ -17,6 +17,9 @@ pub(crate) struct Package {
     pub(crate) published: bool,
     /// The root files of the package's library and programs.
     pub(crate) roots: Vec<PathBuf>,
+    /// The names of the package's integration tests. Those that need a feature are left out, as
+    /// `cargo test --all-targets` leaves them out.
+    pub(crate) tests: Vec<String>,
     /// The packages of the workspace with which this one is built.
     pub(crate) needs: Vec<String>,
     /// The keys of a published manifest that the package's manifest lacks.
@@ -44,6 +47,7 @@ fn package(value: &Value) -> Package {
     let is = |target: &Value, kind: &str| list(&target["kind"]).iter().any(|known| known == kind);
     let targets = list(&value["targets"]);
     let linked = targets.iter().filter(|target| is(target, "lib") || is(target, "bin"));
+    let tests = targets.iter().filter(|target| is(target, "test") && target["required-features"].is_null());
     let needed = list(&value["dependencies"]).iter();
     let needed = needed.filter(|needed| needed["path"].is_string() && needed["kind"] != "dev");
     let has_features = value["features"].as_object().is_some_and(|features| !features.is_empty());
@@ -53,6 +57,7 @@ fn package(value: &Value) -> Package {
         // `null` allows any registry, an empty list none.
         published: value["publish"].is_null(),
         roots: linked.map(|target| text(&target["src_path"]).into()).collect(),
+        tests: tests.map(|target| text(&target["name"])).collect(),
         needs: needed.map(|needed| text(&needed["name"])).collect(),
         unsaid: SAID.into_iter().filter(lacks).collect(),
         hides_features: has_features

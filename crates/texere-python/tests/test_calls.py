@@ -66,7 +66,15 @@ def whole():
     return work
 
 
-def test_ctrl_c_ends_a_rest(whole):
+@pytest.fixture
+def ctrl_c():
+    """Has Ctrl-C raise KeyboardInterrupt. Python goes on ignoring it if it was started so, as a script's background is."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_ends_a_rest(whole, ctrl_c):
     shares, counted = [], [0, True]
 
     def press():
@@ -91,7 +99,7 @@ def test_ctrl_c_ends_a_rest(whole):
     assert counted[0] > 10, "no other thread went on meanwhile"
 
 
-def test_ctrl_c_ends_a_script():
+def test_ctrl_c_ends_a_script(ctrl_c):
     program = textwrap.dedent("""
         import texere
         wool = texere.Yarn(diameter_mm=0.3)

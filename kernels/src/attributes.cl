@@ -109,8 +109,9 @@ inline ulong lane_length(__global const uint4 *points, const Params *params, con
     return lane < block->quads ? step_length(points, params, block, lane) : 0ul;
 }
 
-// Writes the length of each block of a chunk, from its first ring to the next block's first ring.
-// It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of the block table.
+// Writes the length of each block of a chunk, from its first ring to the next block's first ring,
+// or to the yarn's last ring. It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of
+// the block table.
 __kernel __attribute__((reqd_work_group_size(ATTRIBUTES_GROUP, 1, 1)))
 void block_lengths(const Params params, const ulong window, __global const uint4 *points,
                    __global const YarnRow *yarns, __global const Block *blocks, __global ulong *lengths) {

@@ -3,19 +3,20 @@
 // Its twins are crossings_passage.wgsl, and StraightPassage in texere-core (crossings/passage.rs).
 
 // A straight passage over the first of two crossed threads and under the second, at the slope that
-// leaves most room.
+// leaves most room. The sections of the two crossed threads are ellipses.
 typedef struct {
     // Cosine and sine of the slope.
     float2 slope;
-    // How far both ellipses reach across the slope.
+    // How far each ellipse reaches at right angles to the slope.
     float2 reach;
-    // The distance of the middles of both ellipses, across the slope.
+    // The distance between the middles of both ellipses, at right angles to the slope.
     float between;
     // The room that both ellipses and the thread leave.
     float room;
 } StraightPassage;
 
-// How far ellipses reach across a slope: half widths in x and z, half heights in y and w.
+// How far two ellipses reach at right angles to a slope. `halves` has their half widths in x and z,
+// and their half heights in y and w.
 float2 reach_of(float2 slope, float4 halves) {
     float2 x = halves.xz * slope.y;
     float2 z = halves.yw * slope.x;
@@ -33,8 +34,8 @@ StraightPassage passage_of(float across, float rise, float4 halves, float thread
     const float2 upright = (float2)(0.0f, 1.0f);
     float distance = sqrt(across * across + rise * rise);
     float2 excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The steps below begin at the best of three slopes: that of round threads, level, and upright.
-    // Wide ellipses leave most room near level or upright.
+    // The steps below begin at the best of three slopes. One is the slope that is best for circles.
+    // The others are level and upright, because wide ellipses may leave most room near these.
     float2 slope = rise > 0.0f ? (float2)(rise, across) / distance : upright;
     float most = left_by(across, rise, halves, slope);
     float left = left_by(across, rise, halves, level);

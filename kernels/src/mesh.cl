@@ -5,8 +5,8 @@
 // Lanes therefore store 16 bytes at a time (8 if the number of sides is odd), contiguous across the
 // workgroup.
 
-// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number. The four hold floats of at most one normal and one position.
+// Four consecutive floats of ring `ring`'s vertices. `first` is the number of the first float in
+// its vertex, and is even. The four hold floats of at most one normal and one position.
 float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float4 normal_point, float4 position_point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, normal_point);
@@ -17,8 +17,8 @@ float4 four_floats(__local const BlockRings *rings, uint ring, uint first, float
     return first == 2u ? (float4)(position.z, normal) : (float4)(normal.yz, position.xy);
 }
 
-// Two consecutive floats of ring `ring`'s vertex at `point`. The first is float `first` of the
-// vertex, an even number.
+// Two consecutive floats of ring `ring`'s vertex at `point`. `first` is the number of the first
+// float in the vertex, and is even.
 float2 two_floats(__local const BlockRings *rings, uint ring, uint first, float4 point) {
     Stance stance = stance_of(rings, ring);
     float3 normal = normal_at(&stance, point);

@@ -2,10 +2,10 @@
 //
 // share.wgsl is the twin of this file.
 
-// The stores that one lane makes of a workgroup's rings, which all have equally many stores. A lane
-// makes store number `store` of ring `ring` and of each `step`th ring after it. It thus fetches its
-// part of the outline or of the pattern only once. If a ring has more stores than the workgroup has
-// lanes, the lane then goes on `across` stores further.
+// The stores (writes to memory) that one lane makes for the rings of a workgroup. Each ring takes
+// equally many stores. A lane makes store number `store` of ring `ring` and of each `step`th ring
+// after it. It thus fetches its part of the outline or of the pattern only once. If a ring has more
+// stores than the workgroup has lanes, the lane then goes on `across` stores further.
 typedef struct {
     uint store;
     uint across;

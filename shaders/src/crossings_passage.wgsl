@@ -5,19 +5,20 @@
 // (crossings/passage.rs) is the definition.
 
 // A straight passage over the first of two crossed threads and under the second, at the slope that
-// leaves most room.
+// leaves most room. The sections of the two crossed threads are ellipses.
 struct StraightPassage {
     // Cosine and sine of the slope.
     slope: vec2<f32>,
-    // How far both ellipses reach across the slope.
+    // How far each ellipse reaches at right angles to the slope.
     reach: vec2<f32>,
-    // The distance of the middles of both ellipses, across the slope.
+    // The distance between the middles of both ellipses, at right angles to the slope.
     between: f32,
     // The room that both ellipses and the thread leave.
     room: f32,
 }
 
-// How far ellipses reach across a slope: half widths in x and z, half heights in y and w.
+// How far two ellipses reach at right angles to a slope. `halves` has their half widths in x and z,
+// and their half heights in y and w.
 fn reach_of(slope: vec2<f32>, halves: vec4<f32>) -> vec2<f32> {
     let x = halves.xz * slope.y;
     let z = halves.yw * slope.x;
@@ -33,8 +34,8 @@ fn left_by(across: f32, rise: f32, halves: vec4<f32>, slope: vec2<f32>) -> f32 {
 fn passage_of(across: f32, rise: f32, halves: vec4<f32>, thread: f32) -> StraightPassage {
     let distance = sqrt(across * across + rise * rise);
     let excess = halves.xz * halves.xz - halves.yw * halves.yw;
-    // The steps below begin at the best of three slopes: that of round threads, level, and upright.
-    // Wide ellipses leave most room near level or upright.
+    // The steps below begin at the best of three slopes. One is the slope that is best for circles.
+    // The others are level and upright, because wide ellipses may leave most room near these.
     var slope = vec2(0.0, 1.0);
     if rise > 0.0 {
         slope = vec2(rise, across) / distance;

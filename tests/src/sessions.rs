@@ -209,9 +209,10 @@ fn packed_vertices_are_the_meshs(device: &dyn Backend) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Yarns that a settler has moved are meshed where they lie after settling. The mesh equals that of
-/// yarns that are read and sent again, up to rounding, also after one of their points is edited. No
-/// byte goes through the host, unless the host's memory is the device's own.
+/// Yarns that a settler has moved are meshed where they lie after settling. Up to rounding, the
+/// mesh equals that of the same yarns read back and uploaded again. This also holds after one of
+/// their points is edited. No byte goes through the host, unless the host's memory is the device's
+/// own.
 fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed> {
     if !device.info().can.settle {
         return Ok(());
@@ -247,8 +248,8 @@ fn settled_yarns_stay_on_their_device(device: &dyn Backend) -> Result<(), Failed
         sent.upload(0, &points)?;
         sent.scan()?;
         let sent = meshes(&mut sent, &chunks)?;
-        // The bound is four units of settling positions, and the last bit of coordinates of a few
-        // mm.
+        // The bound is four units of settling positions, plus 2e-6 mm for the rounding of `f32`
+        // coordinates.
         let most = 4.0 * settling.scale().unit() + 2e-6;
         let vertices = |meshes: Vec<Lent>| meshes.into_iter().flat_map(|mesh| mesh.vertices);
         let mut count = 0;

@@ -21,8 +21,8 @@ struct Entry {
 /// Writes `files` (name and content) as U3MA. Files are stored as they are, because maps are
 /// compressed already. `time` and `date` are UTC, in the format of MS-DOS.
 ///
-/// **Errors**: the errors of `files` and of `out`, and [`io::ErrorKind::FileTooLarge`] for more
-/// than 4 GiB.
+/// **Errors**: the errors of `files` and of `out`, [`io::ErrorKind::FileTooLarge`] for more than
+/// 4 GiB, and `io::ErrorKind::Other` for more than 65,535 files.
 ///
 /// **Source**: u3m_additional_spec_u3ma.txt of U3M 1.1: no extra fields, no comments, no
 /// attributes.

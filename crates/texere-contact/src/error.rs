@@ -25,7 +25,8 @@ pub enum ContactError {
     /// for each copy of the repeat that it reaches into.
     #[error("linking of {intervals} with their copies; {limit} are compared at most", intervals = counted(*.intervals, "control interval"))]
     LinkingSize {
-        /// Number of intervals of all yarns, with their copies.
+        /// An upper bound on the number of intervals of all yarns, with their copies. It is the
+        /// number of control points times the most copies of an interval along x and along y.
         intervals: u64,
         /// The largest number that is accepted.
         limit: u64,
@@ -48,8 +49,9 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// The part of the cloth that the error is about. None if the error is not about the cloth: for
-    /// a lack of memory, a cancelled call, settings, and two shapes of different yarns.
+    /// The property of the cloth that the error is about. None if the error is not about the cloth:
+    /// for a lack of memory, a cancelled call, settings, two shapes of different yarns or tensions,
+    /// and ends of a boundary that don't fit the yarns.
     ///
     /// ```
     /// use texere_contact::ContactError;

@@ -1,4 +1,4 @@
-//! Half lines for picking.
+//! Half lines that find the place on a yarn that a user points at.
 
 /// A half line.
 ///
@@ -16,7 +16,8 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The point at `distance` lengths of the direction from the start, mm.
+    /// The start plus `distance` times the direction: a point, mm. If the direction has length 1,
+    /// `distance` is in mm.
     #[must_use]
     pub fn at(&self, distance: f64) -> [f64; 3] {
         std::array::from_fn(|axis| self.origin[axis] + distance * self.direction[axis])

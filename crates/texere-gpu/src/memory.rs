@@ -17,7 +17,8 @@ use crate::upload::Ends;
 /// These are not counted:
 /// - the rounding up of each buffer to what kernels read at a time,
 /// - parameters and time stamps, some hundred bytes,
-/// - the 16 MiB that wgpu maps to upload through, which some drivers take from the device's memory,
+/// - the 16 MiB that wgpu maps to upload through, and two buffers of up to 96 MiB each through
+///   which it reads results, which some drivers take from the device's memory,
 /// - rings, 48 bytes each, if [`Session::trajectory`](texere_core::backend::Session::trajectory) is
 ///   called,
 /// - packed vertices, 12 bytes each, if [`Session::packed`](texere_core::backend::Session::packed)

@@ -3,8 +3,8 @@
 use texere_core::BackendError;
 use texere_wgpu::WgpuBackend;
 
-/// The result of `read` for the contents of `buffer`. The submission after which the buffer is
-/// mapped must be done.
+/// The result of `read` for the contents of `buffer`. The device must have finished the submission
+/// that the mapping of `buffer` waits for.
 pub(crate) fn read_mapped<T>(
     device: &WgpuBackend,
     buffer: &wgpu::Buffer,

@@ -32,8 +32,9 @@ pub const PACKED_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferL
 
 /// Draws a whole live mesh in `pass`, with the pipeline that the caller has set. Vertex buffer 0
 /// has the vertices ([`VERTEX_LAYOUT`]). Vertex buffer 1 has the attributes ([`ATTRIBUTE_LAYOUT`]),
-/// if the mesh [keeps](LiveMesh::keep_attributes) any. Yarns are drawn one after the other, with
-/// the draws of [`texere_core::backend::Plan::chunk_draws`].
+/// if the mesh [keeps](LiveMesh::keep_attributes) any. The draws are those of
+/// [`texere_core::backend::Plan::chunk_draws`], chunk after chunk. In each chunk the caps come
+/// last.
 ///
 /// Returns none and draws nothing if the mesh is not on a wgpu device, was never
 /// [updated](LiveMesh::update), or has a topology other than [`Topology::Indexed`].

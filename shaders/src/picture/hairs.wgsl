@@ -2,24 +2,24 @@
 // cover.wgsl and hair.wgsl.
 //
 // A fibre is drawn as a ribbon that faces the eye, at its true width. If the width is less than the
-// distance of samples, the ribbon covers only as many samples as correspond to its area. Thin
-// fibres thus come out fainter, not thicker.
+// distance between samples, the ribbon covers, on average, as many samples as correspond to its
+// area. Thin fibres thus come out fainter, not thicker.
 
 const HAIR_GROUP = 128u;
 
-// The greatest depth at which anything is seen.
+// The largest number below 1. A depth of 1 stands for a sample that shows nothing.
 const DEEPEST = 0.99999994;
 
 @group(1) @binding(2) var<storage, read_write> listed: Listed;
 // The number of hairs on each mm of each yarn.
 @group(1) @binding(6) var<storage, read> hair_density: array<f32>;
 
-// The hairs of a block: the gap of each, and its number there.
+// The hairs of a block: the gap of each between two rings, and its number in that gap.
 var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
 var<workgroup> hair_count: atomic<u32>;
 
-// Notes the hairs of the gap behind ring `ring` of the block. Their number follows from the gap's
-// length. It is rounded up or down by chance.
+// Notes the hairs of the gap after ring `ring` of the block. Their number is the gap's length times
+// the yarn's density of hairs, rounded up or down by chance, and HAIRS_OF_GAP at most.
 fn note_hairs(block: Block, ring: u32) {
     let length = distance(standing.centre[ring].xyz, standing.centre[ring + 1u].xyz);
     let chance = drawn(seed_of(block.yarn, block.first_ring + ring, HAIRS_OF_GAP), 0u);
@@ -30,7 +30,7 @@ fn note_hairs(block: Block, ring: u32) {
     }
 }
 
-// Half a fibre's width at a depth of clip space, in units of 1/256 pixel.
+// Half a fibre's width where the clip space's fourth coordinate is `w`, in units of 1/256 pixel.
 fn half_width_at(w: f32) -> f32 {
     let rows = view.clip_from_local;
     let pixels_of_mm = 0.5 * view.size.y * length(vec3(rows[0].y, rows[1].y, rows[2].y)) / w;
@@ -47,13 +47,12 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     if ((p.sides | q.sides) & BEYOND) != 0u {
         return;
     }
-    // A hair just before the eye would hide the cloth, so it is left out.
+    // A part of a hair just before the eye would hide the cloth, so it is left out.
     let plane = 1.0 / (view.local_from_clip * vec4(0.0, 0.0, 0.0, 1.0)).w;
     if min(start_clip.w, end_clip.w) < 0.5 * plane {
         return;
     }
-    // The range of depths is that of the yarns. Parts of hairs beyond its ends are drawn at the
-    // ends.
+    // Parts of hairs nearer or farther than the view's range of depths are drawn at its limits.
     let depths = clamp(vec2(p.depth, q.depth), vec2(0.0), vec2(DEEPEST));
     let reach = half_width_at(0.5 * (start_clip.w + end_clip.w));
     let base = vec2<f32>(p.place);
@@ -65,7 +64,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
     let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
     for (var row = first_row; row <= end_row; row++) {
-        // The shares of the part's length between which the part lies near the row.
+        // Where along the part, from 0 to 1, it comes within reach of the row and leaves it again.
         let down = f32(sample_place(0, row).y) - base.y;
         let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
         let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));

@@ -216,7 +216,8 @@ impl Cell<'_> {
             let foot = at(0.19 * wale, 0.0, 0.083, own_z(-0.48) - own * self.behind());
             let lower = at(narrow, 0.1, 0.285, own_z(0.41));
             if own == next {
-                // A moved loop leaves one side. Nothing lies in front of the leg on that side.
+                // If the loop is moved, one of its legs is further from the new needle. Nothing
+                // lies in front of that leg, so it is not laid further back.
                 let leaves = hand * (fate.moved as f64) < 0.0;
                 vec![foot, lower, at(0.25 * wale, 0.5, 0.5, if leaves { own_z(0.98) } else { next_z(0.98) })]
             } else {

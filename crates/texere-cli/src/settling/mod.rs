@@ -16,7 +16,7 @@ use plot::plot;
 
 /// The line of a report about settling. Each clause of it is short enough for a terminal.
 pub(crate) fn said(report: &SettlingReport) -> String {
-    let clauses: Vec<_> = report.to_string().split("; ").map(terminal::line).collect();
+    let clauses: Vec<_> = report.clauses().iter().map(terminal::line).collect();
     format!("settling: {}\n", clauses.join("; "))
 }
 

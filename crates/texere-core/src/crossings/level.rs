@@ -3,8 +3,8 @@
 /// The most levels of a set.
 pub(super) const LEVELS_MAX: u8 = 8;
 
-/// The distance of levels at the start, in units. With twice the value, `gradients_are_the_energys`
-/// is red; with half, no test is.
+/// The distance from one level to the next before the first pass, in the plan's unit. With twice
+/// the value, `gradients_are_the_energys` is red; with half, no test is.
 const RISE: f32 = 1.5;
 
 /// The level on which a thread lies at a crossing, among the threads of its set. Threads of one
@@ -23,10 +23,12 @@ impl Level {
     /// The level of all threads of single cloth.
     pub const SINGLE: Self = Self { number: 0, of: 1 };
     /// A binder passes from the face to the back, past the levels of the other threads of its set.
-    /// Binders are neighbours of one another, and start in the middle of the cloth.
+    /// Binders are neighbours of one another. Before the first pass they lie near the middle of the
+    /// cloth.
     pub const BINDER: Self = Self { number: 0, of: 0 };
 
-    /// The height at which a thread starts, in units above the middle of the cloth.
+    /// The height that the level gives a thread before the first pass: above the middle of the
+    /// cloth, in the plan's unit.
     pub(super) fn start(self) -> f32 {
         match self {
             Self::BINDER => 0.0,

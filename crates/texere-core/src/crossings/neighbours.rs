@@ -13,21 +13,22 @@ pub const BESIDE_MAX: usize = 16;
 pub struct Neighbours {
     /// The levels of the end and of the pick.
     pub levels: [Level; 2],
-    /// The distances, in threads, from the end to the nearest ends of its level before and after
-    /// it, and likewise for the pick. A distance is 0 if there is no such thread within 16 threads.
+    /// The distances, in threads, from the end to the nearest ends before and after it that lie on
+    /// its level at this pick, and from the pick to the nearest picks on its level at this end. A
+    /// distance is 0 if there is no such thread within 16 threads.
     pub beside: [[u8; 2]; 2],
 }
 
 impl Neighbours {
-    /// Whether the end and the pick belong to different layers of the cloth. Each level is a layer
-    /// where warp and weft have the same number of levels.
+    /// Whether the end and the pick belong to different layers of the cloth. If warp and weft have
+    /// the same number of levels here, each level is a layer. Otherwise there are no layers.
     #[must_use]
     pub const fn are_apart(&self) -> bool {
         self.is_layered() && self.levels[0].number != self.levels[1].number
     }
 
-    /// Whether the end and the pick belong to one layer of the cloth. They then bend round one
-    /// another, and therefore touch.
+    /// Whether the end and the pick belong to one layer of the cloth. They then touch, whether they
+    /// bend round one another or float.
     #[must_use]
     pub const fn touch(&self) -> bool {
         self.is_layered() && self.levels[0].number == self.levels[1].number

@@ -1,13 +1,13 @@
 //! The passage of a thread that changes sides between two threads of the other set.
 
-/// Number of steps of Newton's method towards the best slope. With half the value,
-/// `gradients_are_the_energys` is red; with twice, no test is.
+/// Number of steps of Newton's method towards the best slope. With 2,
+/// `gradients_are_the_energys` is red; with 10, no test is.
 pub const STEPS: u32 = 5;
 
-/// How much the room, as a function of the slope angle, must curve downwards for Newton's step to
-/// be used. It is a share of the distance between the ellipses' middles. If the room curves less,
-/// the step is the room's first derivative, divided by that distance. With twice the value,
-/// `gradients_are_the_energys` is red; with half, no test is.
+/// Newton's step is used where the second derivative of the room ([`StraightPassage::room`]) by the
+/// slope angle is less than minus this multiple of the distance between the ellipses' middles.
+/// Elsewhere the step is the room's first derivative, divided by that distance. With twice the
+/// value, `gradients_are_the_energys` is red; with half, no test is.
 pub const CURVED: f32 = 0.1;
 
 /// The longest turn of one step, radians. With half the value, and with twice, no test is red.
@@ -50,8 +50,8 @@ impl StraightPassage {
         opening.straight(opening.start().0)
     }
 
-    /// The distance of both ellipses, divided by the distance that they and the thread need. It is
-    /// 1 if all three touch.
+    /// The distance between both ellipses at right angles to the slope, divided by the one that
+    /// they and the thread need. It is 1 if all three touch.
     #[must_use]
     pub fn clearance(&self) -> f32 {
         self.between / (self.between - self.room)
@@ -70,8 +70,8 @@ pub(super) struct Opening {
 
 impl Opening {
     /// The best of three slopes as cosine and sine, and the room that the slope leaves. The three
-    /// are the slope of round threads, level, and upright. Wide ellipses leave most room near level
-    /// or upright.
+    /// are the slope that is best for circles, level, and upright. Wide ellipses may leave most
+    /// room near level or upright.
     pub(super) fn start(&self) -> ([f32; 2], f32) {
         let Self { across, rise, halves: [[a, b], [other_a, other_b]], thread } = *self;
         let distance = (across * across + rise * rise).sqrt();

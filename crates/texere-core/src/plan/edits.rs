@@ -1,4 +1,4 @@
-//! Edited plans: plans in which some yarns are replaced, the conditions for edits, and the
+//! Edited plans, in which some yarns are replaced. Also the conditions for edits, and the
 //! [`Stand`]s of the new yarns.
 
 use std::sync::Arc;
@@ -17,9 +17,9 @@ impl Plan {
     ///
     /// **Errors**: [`PlanError::NoRoom`] for more points than there is [room](Plan::with_room) for,
     /// [`PlanError::TooFewPoints`], and [`PlanError::OtherPlan`] for changes that need a new plan:
-    /// an open yarn that becomes closed or the other way round, any edit of a yarn with given up
-    /// directions, a section that the layout lacks, a twist beyond [`TWIST_LIMIT`], or a twist if
-    /// no yarn's rolls are scanned.
+    /// an open yarn that becomes closed or the other way round, any edit of a yarn whose up
+    /// directions are given, a section that the layout lacks, a twist beyond [`TWIST_LIMIT`], or a
+    /// twist if no yarn's rolls are scanned.
     ///
     /// **Panics** past the last yarn.
     pub fn edited(&self, yarn: usize, what: Yarn, points: &[ControlPoint]) -> Result<Self, PlanError> {

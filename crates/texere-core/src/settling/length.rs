@@ -7,11 +7,11 @@ pub enum Length {
     Held,
     /// Every interval gets this multiple of its length at the start, 0.5 to 2.
     Given(f32),
-    /// Yarns get the length that their path needs, spread evenly along them. While soft bends act,
-    /// a tension shortens the yarns.
+    /// Yarns get the length that their path needs, spread evenly along them. A tension shortens the
+    /// yarns. It acts only on the way to rest, with the strength `Pass::ease`.
     Free {
-        /// The share of its length by which an interval is shortened in a pass: 0 for no tension,
-        /// 0.1 at most.
+        /// The share of its length by which an interval is shortened in a pass with an `ease` of 1.
+        /// It is 0 for no tension, and 0.1 at most.
         tension: f32,
     },
 }
@@ -26,8 +26,8 @@ pub const FREE_MOST: f32 = 1.15;
 
 /// The share of a difference of lengths that a free interval makes up in a pass. The difference is
 /// that between the length that the interval aims for and the mean of its own and its neighbours'
-/// arc lengths. Without this damping, equalising together with momentum diverges. With half the
-/// value, and with twice, `a_settled_repeat_fits_its_copies` is red.
+/// arc lengths. If a pass made up the whole difference, settling with momentum would diverge. With
+/// half the value, and with twice, `a_settled_repeat_fits_its_copies` is red.
 pub const FREED: f32 = 0.05;
 
 /// The length that an interval aims for after a pass with free lengths. `length` is what it aimed

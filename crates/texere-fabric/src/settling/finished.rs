@@ -1,4 +1,5 @@
-//! A structure whose yarns have come to rest: a knit by contact, woven cloth by its crossings.
+//! A structure whose yarns have come to rest: a knit by contact or by its energy, woven cloth by
+//! its crossings.
 
 use texere_core::Yarns;
 
@@ -30,7 +31,7 @@ impl Finished {
         }
     }
 
-    /// The yarns of the fabric, without the report.
+    /// The yarns of the fabric, without the figures of settling.
     #[must_use]
     pub fn into_yarns(self) -> Yarns {
         match self {

@@ -31,7 +31,7 @@ pub enum WeftError {
         /// one, plus twice the courses from each loop to the loop that is drawn through it. In a
         /// warp knit, the needles that underlaps pass.
         passed: u64,
-        /// Number of loops.
+        /// Number of loops. In a warp knit, laps that only inlay yarn count, too.
         loops: u64,
         /// The most that is allowed for this number of loops.
         limit: u64,
@@ -67,7 +67,7 @@ pub enum WeftError {
         /// The largest distance or length allowed, mm.
         high: f64,
     },
-    /// A carrier of a knit that has no yarn.
+    /// A knit uses a carrier that has no yarn.
     #[error("no yarn for carrier {carrier}; there are {yarns}")]
     Carrier {
         /// The carrier, counted from 1.
@@ -113,7 +113,8 @@ pub enum WeftError {
 
 impl WeftError {
     /// The number of the refused operation, counted from 1. A reader of a file finds the line with
-    /// this number. None for errors that concern no operation.
+    /// this number. None for errors without such a number. `WeftError::KnitRuns` gives none here,
+    /// because it has the operation's source instead.
     ///
     /// ```
     /// use texere_fabric::weft::WeftError;

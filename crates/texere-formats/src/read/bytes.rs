@@ -121,7 +121,7 @@ impl<'a> Bytes<'a> {
     ) -> Result<usize, ReadError> {
         let most = self.left.len() as u64 / each;
         if count > most {
-            let expected = format_args!("{most} at most, for which there are bytes");
+            let expected = format_args!("{most} at most, because the file has bytes for no more");
             return Err(self.refused(at, field, count, expected));
         }
         // The count fits into `usize`, because it is at most the number of bytes in memory.
@@ -140,7 +140,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Checks the last four bytes, which must be the CRC-32 of all bytes before them. The four
-    /// bytes are then no longer among the bytes left.
+    /// bytes then no longer belong to the file, so [`Self::check_length`] has to come first.
     pub(super) fn check_sum(&mut self, field: &'static str) -> Result<(), ReadError> {
         let Some((left, stated)) = self.left.split_last_chunk() else {
             return Err(self.cut_short(field, 4));
@@ -148,7 +148,7 @@ impl<'a> Bytes<'a> {
         let end = self.whole.len() - stated.len();
         let (stated, is) = (u32::from_le_bytes(*stated), crc32fast::hash(&self.whole[..end]));
         if stated != is {
-            let expected = format_args!("{is:#010x}, that of the bytes before it: they have changed since");
+            let expected = format_args!("{is:#010x}, that of the bytes before it: the file is damaged");
             return Err(self.refused(end as u64, field, format_args!("{stated:#010x}"), expected));
         }
         (self.left, self.whole) = (left, &self.whole[..end]);

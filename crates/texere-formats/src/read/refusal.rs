@@ -37,8 +37,9 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// The reason in one line, with the key that asks for the cloth, if there is one. It is meant
-    /// for a program that shows the cloth in spite of the refusal.
+    /// The reason in one line, with the key that asks for the cloth, if there is one. For
+    /// `Refusal::File`, the line names the file but not the reason. The line is meant for a program
+    /// that shows the cloth in spite of the refusal.
     #[must_use]
     pub fn why(&self) -> String {
         match self {

@@ -14,7 +14,7 @@ use knit::KnitRestReport;
 use relaxed::RelaxedReport;
 use woven::WovenRestReport;
 
-/// How the yarns of a cloth came to rest, in a line that displays and as data that serializes.
+/// How the yarns of a cloth came to rest. `Display` writes it as one line, and `Serialize` as data.
 #[derive(Debug, Serialize)]
 #[serde(transparent)]
 pub struct SettlingReport(Settling);
@@ -69,11 +69,17 @@ impl SettlingReport {
         }
     }
 
-    /// The report for people: a label and what is said, a line for each clause. A terminal shows
-    /// only the start and the end of a long line.
+    /// The clauses of the line that `Display` writes. Semicolons separate them in that line. Each
+    /// clause is short enough for a line of a terminal.
+    #[must_use]
+    pub fn clauses(&self) -> Vec<String> {
+        self.to_string().split("; ").map(str::to_owned).collect()
+    }
+
+    /// The report for people: a line for each clause, with a label on the first line. The command
+    /// `texere` shows only the start and the end of a long line.
     pub(super) fn lines(&self) -> Vec<(&'static str, String)> {
-        let labels = iter::once("settling").chain(iter::repeat(""));
-        labels.zip(self.to_string().split("; ").map(str::to_owned)).collect()
+        iter::once("settling").chain(iter::repeat("")).zip(self.clauses()).collect()
     }
 
     /// A warning if the press was not reached.

@@ -41,8 +41,8 @@ impl Seek for Failing {
     }
 }
 
-/// The mesh of two capped yarns, in several chunks. One yarn has 8,001 rings, several times what a
-/// target buffers, and is cut over chunks.
+/// The mesh of two capped yarns, in several chunks. One yarn has 8,001 rings, whose vertices are
+/// several times what a target buffers, and is cut over chunks.
 fn mesh() -> Mesh {
     let mut yarns = Yarns::builder();
     for (count, material) in [(4001, [200, 30, 30]), (9, [30, 30, 200])] {
@@ -86,12 +86,12 @@ fn write(mesh: &Mesh, form: impl Into<MeshForm>, piece: usize, out: Failing) -> 
     feed.finish()?.into_inner()
 }
 
-/// The forms of glTF that no extension of files stands for.
+/// The forms of glTF that no ending of a file name stands for.
 const GLB_FORMS: [Format; 4] =
     [Format::PackedGlb, Format::CompressedGlb, Format::KhrCompressedGlb, Format::InstancedGlb];
 
 #[test]
-fn a_full_disk_is_an_error_at_any_byte() {
+fn a_disk_that_is_full_sooner_or_later_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let on_disk = |room| Failing { file: NamedTempFile::new_in(folder.path()).unwrap(), room };
     let mesh = mesh();

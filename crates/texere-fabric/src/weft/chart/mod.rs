@@ -36,8 +36,7 @@ struct Course {
     row: u32,
 }
 
-/// A chart: one repeat of stitches, seen from the right side of the cloth. Each course is of one
-/// yarn.
+/// A chart: one repeat of stitches, seen from the face of the cloth. Each course is of one yarn.
 ///
 /// ```
 /// use texere_fabric::weft::{Beds, Chart};
@@ -85,10 +84,11 @@ impl Chart {
     /// |---|---|
     /// | `k` | knit: the front needle |
     /// | `p` | purl: the back needle |
-    /// | `t`, `u` | tuck; with two beds `u` on the back needle |
+    /// | `t` | tuck; with two beds on the front needle |
+    /// | `u` | with two beds: tuck on the back needle |
     /// | `m` | miss: the yarn floats past |
     /// | `b` | with two beds: both needles knit, half a needle apart |
-    /// | `<`, `>` | knit, and the loop goes to the next needle on that side |
+    /// | `<`, `>` | knit, and the loop goes to the next needle: left with `<`, right with `>` |
     /// | `RRrr` | a cable: the loops under capitals cross to the right, in front of the others |
     /// | `llLL` | the loops under capitals cross to the left, in front |
     ///
@@ -127,8 +127,8 @@ impl Chart {
     /// A chart from the symbol at each column and row. Both are counted from 0, and rows from the
     /// top. The symbols are those of [`Chart::parse`].
     ///
-    /// **Errors**: [`ChartError::Symbol`] and [`ChartError::HalfCable`] with the row, counted from
-    /// the top, and the column, and the errors of [`Chart::new`].
+    /// **Errors**: [`ChartError::Symbol`] and [`ChartError::HalfCable`] with the row and the
+    /// column, here both counted from 1, and rows from the top. Also the errors of [`Chart::new`].
     pub fn from_symbols(
         wales: usize,
         rows: usize,
@@ -201,8 +201,9 @@ impl Chart {
         self.courses.iter().map(|course| course.yarn)
     }
 
-    /// Number of rows of the drawing. A Jacquard has a course for each yarn of a row. A chart that
-    /// yarns repeat upwards has each row more than once.
+    /// Number of rows of the drawing. A Jacquard has a course for each yarn of a row. If
+    /// `Chart::with_yarns` has repeated a chart upwards, each row occurs more than once. It still
+    /// counts as one row.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.courses.last().map_or(0, |course| course.row as usize + 1)
@@ -271,8 +272,8 @@ impl Chart {
     fn checked(self) -> Result<Self, ChartError> {
         let on_two = self.beds == Beds::Two;
         let rows = self.rows();
-        // For the front and the back needle of each wale, whether the needle gets loops without
-        // knitting, and whether it knits. On one bed the first entry counts for the whole wale.
+        // For the front and the back needle of each wale: whether tucks or moved loops come to the
+        // needle, and whether it knits. On one bed the first entry counts for the whole wale.
         let mut gets = filled("wales of a chart", self.wales, [false; 2])?;
         let mut knits = filled("wales of a chart", self.wales, [false; 2])?;
         for (number, &cell) in self.cells.iter().enumerate() {

@@ -98,8 +98,9 @@ pub(super) fn written(cells: &[Cell]) -> Option<String> {
     Some(text)
 }
 
-/// The numbers of loops in both halves of a cable. Its left half are the last of `alike` loops that
-/// move by `by` needles. Its right half are the first cells of `after`. None if they are no cable.
+/// The numbers of loops in both halves of a cable. `alike` cells in a row hold loops that move by
+/// `by` needles, and the last of these cells are the left half. The first cells of `after` are the
+/// right half. None if they are no cable.
 fn cable(alike: usize, by: i32, behind: bool, after: &[Cell]) -> Option<[usize; 2]> {
     let Some(&Cell::Moved { by: back, behind: other }) = after.first() else { return None };
     let (left, right) = (usize::try_from(-back).ok()?, usize::try_from(by).ok()?);

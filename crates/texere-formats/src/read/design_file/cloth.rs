@@ -40,7 +40,7 @@ impl Cloth {
                 [("report", Relief::Report), ("flatten", Relief::Flatten), ("shrink", Relief::Shrink)];
             cloth.relief = choice(source, "cloth.jam", jam, &known)?;
             if rests && cloth.relief != Relief::Report {
-                let expected = "\"report\": in cloth at rest threads give way by themselves; finish.settle = false leaves it as it is woven";
+                let expected = "\"report\": in cloth at rest threads give way by themselves; with finish.settle = false, which leaves cloth as it is woven, also \"flatten\" or \"shrink\"";
                 return Err(source.odd("cloth.jam", jam, expected));
             }
         }

@@ -1,7 +1,7 @@
 //! The limits of drafts. The writer of WIF keeps them as well.
 
-/// The largest file of a draft that is read, bytes. A lift plan of 10,000 picks by 5,000 hooks
-/// takes half as much in WIF.
+/// The largest file of a draft that is read, bytes. In WIF, a lift plan of 10,000 picks by 5,000
+/// hooks takes about half as much, if each pick lifts half of the hooks.
 pub(crate) const FILE_MAX: u64 = 1 << 28;
 
 /// The most threads of a warp or weft.

@@ -3,9 +3,13 @@
 //!
 //! Sections and keys come in any order and case. A thread that a list of colours, spacings or
 //! thicknesses leaves out has the value of its whole set. In THREADING, TIEUP, TREADLING and
-//! LIFTPLAN a value of 0, or none, stands for no shaft or no treadle. CONTENTS is not read. A
-//! treadle or shaft that the loom does not have, a colour that is not in the table, and a missing
-//! tie-up, treadling or lift plan are refused with section and key.
+//! LIFTPLAN a value of 0 stands for no shaft or no treadle. So does an empty value, or a missing
+//! line. CONTENTS is not read.
+//!
+//! A treadle or shaft that the loom does not have is refused. So is a colour number that is not in
+//! the table, unless red, green and blue follow it. These errors name section and key. A draft has
+//! to have a lift plan, or both a tie-up and a treadling. If it has neither, the error names the
+//! missing section.
 //!
 //! A loom has the shafts and treadles that WEAVING declares. If ends are threaded on more shafts,
 //! or the tie-up has rows for more treadles, the loom has these as well, and a warning says so. A

@@ -40,7 +40,7 @@ impl Finished {
             (length != usual.length, "finish.length, which only knits have"),
             (press_mm != usual.press_mm, "finish.press, which only knits have"),
             (passes != usual.passes, "the most passes of settling"),
-            (record != usual.record, "whether the course of settling is kept"),
+            (record != usual.record, "whether a record of settling is kept"),
         ];
         Self { keys, unsaid: named(&unsaid) }
     }
@@ -74,7 +74,8 @@ pub(super) fn beyond_wif(design: &Design, woven: &WovenDesign) -> Vec<String> {
     named(&said).into_iter().chain(keys).chain(finished.unsaid.clone()).collect()
 }
 
-/// Keys of `[cloth]` whose values differ from the defaults, with their values.
+/// Keys of `[cloth]` whose values differ from the defaults, with their values. The key `jam` is not
+/// among them: the caller adds it.
 pub(super) fn cloth_keys(cloth: &Woven) -> Vec<String> {
     let shape = match cloth.shape() {
         Shape::Crossing => Some("shape = \"crossing\"".into()),

@@ -14,11 +14,11 @@ pub(super) enum Setting {
 }
 
 /// The settings of a knit's finish that differ from the defaults. Settings of woven cloth, and
-/// settings that only a program can ask for, have no keys in a knit.
+/// settings that only callers of the library can make, have no keys in a knit.
 pub(super) struct KnitFinish {
     /// Keys of knits, each with its value. `settle` is not among them.
     pub(super) keys: Vec<(&'static str, Setting)>,
-    /// Settings without a key for knits, in words.
+    /// Settings that the file of this knit can't have, in words.
     pub(super) unsaid: Vec<String>,
 }
 
@@ -26,7 +26,7 @@ impl KnitFinish {
     pub(super) fn new(design: &Design) -> Self {
         let Finish { by, length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
-        // Rest by energy knows no plates and no free lengths, and a reader refuses them with it.
+        // Beside `rest = "energy"`, a reader refuses `press` and `length = "free"`.
         let by_energy = by == RestBy::Energy;
         let is_free = matches!(length, Some(Length::Free { .. }));
         let mut keys = match length {
@@ -47,11 +47,14 @@ impl KnitFinish {
             (taut.warp != usual.taut.warp, "finish.warp_tension, which only woven cloth has"),
             (taut.weft != usual.taut.weft, "finish.weft_tension, which only woven cloth has"),
             (calender != usual.calender, "finish.calender, which only woven cloth has"),
-            (design.stretch.is_some(), "finish.stretch, which only woven cloth has"),
-            (by_energy && is_free, "finish.length, which rest by energy does not know"),
+            (
+                design.stretch.is_some(),
+                "finish.stretch_warp or finish.stretch_weft, which only woven cloth has",
+            ),
+            (by_energy && is_free, "finish.length = \"free\", which rest by energy does not know"),
             (by_energy && press_mm.is_some(), "finish.press, which rest by energy does not know"),
             (passes != usual.passes, "the most passes of settling"),
-            (record != usual.record, "whether the course of settling is kept"),
+            (record != usual.record, "whether a record of settling is kept"),
         ];
         Self { keys, unsaid: super::text::named(&unsaid) }
     }

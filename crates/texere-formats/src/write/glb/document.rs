@@ -26,17 +26,18 @@ const ROUGHNESS: f32 = 0.9;
 /// The document of a GLB file. The bounds of its positions are filled in while vertices are
 /// written.
 ///
-/// Each tube is one primitive, from its yarn's first ring to its last. Each cap is one primitive,
-/// too. Each primitive has accessors of its own for positions, normals and attributes. Tubes with
-/// equally many rings share one accessor of indices. Caps share one if they close the same end of
-/// yarns with the same section.
+/// Each tube is one primitive, even if it is in several chunks. A yarn is one tube, from its first
+/// ring to its last. If only a box of the cloth is written, each part of a yarn in the box is one
+/// tube. Each cap is one primitive, too. Each primitive has accessors of its own for positions,
+/// normals and attributes. Tubes with equally many rings share one accessor of indices. Caps share
+/// one if they close the same end of yarns with the same section.
 #[derive(Debug)]
 pub(super) struct Document {
     gltf: Gltf,
     /// The shapes in the order of their vertices.
     shapes: Vec<Shape>,
-    /// The number of columns. Each shape has as many accessors, of which the first has its
-    /// positions.
+    /// The number of columns of a vertex: positions, normals and each attribute. Each shape has one
+    /// accessor of vertices for each column. The first of them has the shape's positions.
     columns: usize,
     ring: RingForm,
     /// The number of gaps between rings of the longest tube. The index pattern covers as many gaps.
@@ -188,16 +189,16 @@ impl Document {
         &self.gltf
     }
 
-    /// The size of the file's buffer, bytes: of compressed buffer views before they have [places]
-    /// in it, that of the views unpacked.
+    /// The size of the file's buffer, bytes. If buffer views are compressed and have no [places] in
+    /// the buffer yet, it is the size of the unpacked views.
     ///
     /// [places]: Self::place
     pub(super) fn buffer_bytes(&self) -> u64 {
         self.gltf.buffers[0].byte_length
     }
 
-    /// Gives the compressed buffer views, which have these `lengths` in bytes, their places in the
-    /// file's buffer, one after the other.
+    /// Places the compressed buffer views in the file's buffer, one after the other. `lengths` are
+    /// the lengths of the views, bytes.
     pub(super) fn place(&mut self, lengths: impl Iterator<Item = u64>) {
         let mut end = 0;
         for (view, length) in self.gltf.buffer_views.iter_mut().zip(lengths) {

@@ -267,7 +267,7 @@ fn what_rest_by_energy_does_not_know_is_left_out() {
     design.finish.by = RestBy::Energy;
     (design.finish.press_mm, design.finish.length) = (Some(0.4), Some(Length::Free { tension: 0.01 }));
     let (read, left_out, _) = as_toml(&design);
-    let finish = ["finish.length, which", "finish.press, which"];
+    let finish = ["finish.length = \"free\", which", "finish.press, which"];
     assert!(finish.iter().all(|key| left_out.iter().any(|line| line.starts_with(key))), "{left_out:?}");
     assert_eq!(read.finish, Finish { by: RestBy::Energy, ..Finish::default() });
 }

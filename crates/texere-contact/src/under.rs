@@ -78,8 +78,10 @@ fn nearest(four: &[ControlPoint; 4], point: [f64; 2], s: f32) -> Option<(f64, f6
         let [x, y, _] = sample.centre.to_array().map(f64::from);
         ([x - point[0], y - point[1]], f64::from(sample.half_width))
     };
+    let mut ahead = sample(0);
     let pieces = (0..PIECES).map(|step| {
-        let [([x, y], from), ([to_x, to_y], to)] = [step, step + 1].map(sample);
+        let ([x, y], from) = std::mem::replace(&mut ahead, sample(step + 1));
+        let ([to_x, to_y], to) = ahead;
         let [run, rise] = [to_x - x, to_y - y];
         let squared = (run * run + rise * rise).max(f64::MIN_POSITIVE);
         let share = (-(x * run + y * rise) / squared).clamp(0.0, 1.0);

@@ -1,4 +1,8 @@
-"""VTK's tube filter and a vectorised numpy tube on the same polylines: `tube.py FOLDER vtk|vtk-triangles|numpy ROUNDS`."""
+"""Times the making of tubes round the polylines in FOLDER.
+
+`tube.py FOLDER vtk|vtk-triangles|numpy ROUNDS` runs VTK's tube filter, the same filter with its
+result cut into triangles, or a vectorised numpy tube.
+"""
 
 import resource
 import sys

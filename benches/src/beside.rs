@@ -31,8 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Makes the mesh of each cloth. If there are several cloths, each has a thread of its own. The
-/// memory of each mesh is freed here, so that the measured time includes freeing it. In Python the
-/// time includes it, too, because the last reference to the mesh goes.
+/// memory of each mesh is freed here, so that the measured time includes the freeing. In Python the
+/// time includes the freeing, too, because the last reference to the mesh goes.
 fn made(cloths: &[Yarns], device: &dyn Backend) -> Result<(), PipelineError> {
     let mesh = |yarns| Pipeline::new(yarns).mesh(device).map(drop);
     if let [yarns] = cloths {

@@ -105,7 +105,7 @@ fn print_row(
 }
 
 /// The median time of `rounds` runs of `passes` passes each, after a run that warms the device up.
-/// The passes are those late in a course, when threads have grown.
+/// The passes have the settings of late passes of a settling, when threads have their full area.
 fn time_of(
     settler: &mut dyn CrossingsSettler,
     passes: usize,

@@ -1,5 +1,5 @@
 //! Compares a device with its floor. The mesh stage, also with packed vertices, stands beside a
-//! plain fill of the same bytes. Reading and uploading stand beside plain copies from and to pinned
+//! plain fill of as many bytes. Reading and uploading stand beside plain copies to and from pinned
 //! memory.
 
 use std::error::Error;

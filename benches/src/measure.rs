@@ -57,8 +57,8 @@ impl Bench {
         Ok(Self { plan, chunks, session, yarns, creation, upload })
     }
 
-    /// Runs scan and mesh once, and returns the times of this run alone. Both stages are fused if
-    /// the device fuses them.
+    /// Runs the scan once, and then makes the mesh. Returns the times of this run alone. Stage 1
+    /// (trajectory) and stage 2 (mesh) are fused if the device fuses them.
     ///
     /// **Errors**: [`SessionError`] from the device.
     pub fn fused(&mut self) -> Result<StageTimings, SessionError> {
@@ -142,8 +142,8 @@ impl Bench {
     }
 }
 
-/// The bytes that two chunks may take at a time. Without this limit, the cloths of the tables would
-/// leave no memory for the rest on a device whose memory is the host's.
+/// The bytes that all control points and two chunks may take together. Without this limit, the
+/// cloths of the tables would leave no memory for the rest on a device whose memory is the host's.
 const HOST_SHARE: u64 = 12 << 30;
 
 /// The median of some times.

@@ -107,7 +107,7 @@ impl PhaseTimer {
         Ok(Phases { serial_geometry, serial_buffers, parallel_geometry, parallel_buffers, rendering })
     }
 
-    /// Times the mesh with the settings of a scene, which makes vertices alone, with caps.
+    /// Times the mesh on the device that draws: vertices without indices, and with caps.
     fn parallel_geometry(&self, yarns: &Yarns, settings: &Settings) -> Result<Duration, Box<dyn Error>> {
         let settings = Settings { topology: Topology::None, caps: true, ..*settings };
         let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);

@@ -10,8 +10,8 @@ use texere::picture::{Camera, Extent, PictureTimings, Pose, Quality, RenderError
 use crate::measure::median_time;
 
 /// Draws each design `rounds` times from straight above and from aside, with four and with sixteen
-/// samples a pixel, and prints the medians. `nearer` lists how many times nearer than a view of the
-/// whole cloth.
+/// samples a pixel, and prints the medians. Each number of `nearer` says how many times nearer a
+/// view is than that of the whole cloth.
 ///
 /// # Errors
 ///

@@ -93,7 +93,7 @@ pub fn stages(path: &Path, device: &dyn Backend) -> Result<(Stages, Yarns), Box<
     }
     let (_, yarns) = cloth.into_parts();
     let plan = Arc::new(Plan::new(yarns.layout().clone(), settings)?);
-    // Two chunks of this size fit on the devices that are measured.
+    // The devices that are measured have at least as much memory as this limit.
     let limits = device.info().limits.min(&Limits { memory_bytes: CHUNKS, ..Limits::NONE });
     let chunks: Vec<_> = plan.chunks(&limits)?.collect();
     let mut session = Session::new(device, plan.clone())?;
@@ -176,7 +176,7 @@ pub fn print_one_yarn(designs: &[impl AsRef<Path>], device: &str) -> Result<(), 
     Ok(())
 }
 
-/// The bytes of memory of a device that a plan with two chunks may take.
+/// The bytes of a device's memory that all control points and two chunks may take together.
 const CHUNKS: u64 = 32 << 30;
 
 /// A clock that measures the time from lap to lap.

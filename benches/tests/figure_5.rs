@@ -1,5 +1,5 @@
-//! Tests the paper's figure 5, the times of geometry, buffers and drawing. It draws on any Vulkan
-//! device, such as lavapipe.
+//! Tests of the paper's figure 5, the times of geometry, buffers and drawing. The tests draw on any
+//! Vulkan device, such as lavapipe.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::time::Duration;

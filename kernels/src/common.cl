@@ -143,7 +143,7 @@ typedef struct {
 } Segment;
 
 typedef struct {
-    // Centre relative to the segment's first control point.
+    // Centre relative to P[j].
     float3 offset;
     float3 centre;
     float half_width;

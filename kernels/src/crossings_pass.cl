@@ -144,7 +144,8 @@ float2 move_crossing(const Cloth *cloth, __global float4 *crossings, __global fl
     size_t first = 2u * (size_t)number;
     float4 warp = move_thread(cloth, crossings, first + WARP, &end, share * step.warp);
     float4 weft = move_thread(cloth, crossings, first + WEFT, &pick, share * step.weft);
-    // Momentum that would lead uphill in the energy is dropped.
+    // Momentum fades if the step leads uphill in the energy. None is left if the cosine between the
+    // step and the energy's slope is CROSSINGS_UPHILL or more.
     float rise = dot4(block.own, warp) + dot4(block.crossed, weft);
     float slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
     float steepest = sqrt((dot4(warp, warp) + dot4(weft, weft)) * slopes);

@@ -3,7 +3,7 @@
 //
 // Its twins are crossings_terms.wgsl, and texere-core's crossings/{terms,contacts}.rs.
 
-// A crossing of a thread, some steps from another.
+// A crossing on a thread, some steps along the thread from another crossing.
 typedef struct {
     uint2 site;
     bool there;
@@ -29,7 +29,8 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const Thr
     float4 slopes = (float4)(0.0f, 0.0f, 1.0f / radius, -thread->aspect / radius);
     add_own(block, thread->shape, 1.0f, wide - thread->aspect * thick, slopes);
     float gain = wide * thick - cloth->params->area;
-    // Near its full area a section grows no faster than a section above it shrinks.
+    // Just below its full area a section takes the curvature of a section above that area.
+    // Otherwise it would grow beyond the area in one pass, and shrink back in the next.
     float weight = gain < -CROSSINGS_NEAR ? CROSSINGS_AREA_LOSS : CROSSINGS_AREA_GAIN;
     float residual = gain < 0.0f ? CROSSINGS_AREA_LOSS / weight * gain : gain;
     slopes = (float4)(0.0f, 0.0f, thick / radius, wide / radius);
@@ -58,7 +59,7 @@ void add_bend(CrossingBlock *block, const ThreadRow *thread, const Along *before
 
 // Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
 // evenness of sections. `sign` is -1 for the crossing before, and 1 for the one after. A taut
-// thread that changes sides pulls apart the threads between which it does.
+// thread pulls apart the two threads between which it changes sides.
 void add_difference(const Cloth *cloth, CrossingBlock *block, uint of_set, const Along *here, const Along *other, float sign,
                     float gap, float tension, float evenness) {
     if (!other->there) {
@@ -75,8 +76,8 @@ void add_difference(const Cloth *cloth, CrossingBlock *block, uint of_set, const
     add_between(block, CROSSINGS_TENSION * taut, 2.0f, rise, (float2)(shorter, 0.0f), crossed);
 }
 
-// The room between a thread and the threads that it crosses, on the way between two crossings. This
-// crossing is the second of the two if `second` is true, and otherwise the first.
+// The room between a thread and the threads that it crosses, on the way between two crossings. In
+// the functions below, `second` is true if this crossing is the second of the two.
 typedef struct {
     float room;
     // The slopes of the room in the thread's height and half height, and in the unknowns of the
@@ -95,7 +96,7 @@ Meeting shoulder(float side, const Along *first, const Along *last, float4 one, 
     float4 under = rises ? two : one;
     float across = first->gap + two.x - one.x;
     float slope = side * (upper.y - lower.y) / across;
-    // The distance is measured upright, not across the slope.
+    // Measured upright, the thread's half height is longer by this factor than across the slope.
     float length = sqrt(1.0f + slope * slope);
     float x = under.z * slope;
     float z = under.w;
@@ -190,8 +191,8 @@ void keep_clear(const Cloth *cloth, CrossingBlock *block, float apart, float ris
 }
 
 // Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
-// There the neighbours are ellipses. They are `gap` apart before they shift. Threads further apart
-// than the next are neighbours of one level, and have to be so at both crossings.
+// There the neighbours are ellipses. They are `gap` apart before they shift. If other threads lie
+// between the neighbours, both are of one level, and have to be neighbours at both crossings.
 void add_half_way(const Cloth *cloth, CrossingBlock *block, uint of_set, float4 own, const Along *next, float4 neighbour, int across,
                   float gap) {
     if (!next->there) {
@@ -263,7 +264,7 @@ float slope_of(const Cloth *cloth, uint2 site, uint of_set) {
 }
 
 // Adds the term of the contact between both threads of a crossing, one on top of the other. Threads
-// that bend round one another touch. The block is described from the warp.
+// of one layer touch. The block is described from the warp.
 void add_contact(const Cloth *cloth, CrossingBlock *block, uint2 site) {
     float4 warp = lie_of(cloth, site, WARP);
     float4 weft = lie_of(cloth, site, WEFT);

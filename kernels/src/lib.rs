@@ -74,7 +74,8 @@ pub const PACKED_ODD: EntryPoint = EntryPoint { name: "packed_odd", group: 64 };
 /// Packed vertices of a chunk's caps, after [`PACKED`]. It runs with one lane for each cap vertex.
 pub const PACKED_CAPS: EntryPoint = EntryPoint { name: "packed_caps", group: 64 };
 
-/// The paper's algorithm 2. It runs with one lane for each part of the chunk.
+/// The paper's algorithm 2. It runs with one lane for each part of the chunk. A part is a run of
+/// one yarn's rings.
 pub const TRAJECTORY_PER_YARN: EntryPoint = EntryPoint { name: "trajectory_per_yarn", group: 64 };
 
 /// The paper's algorithm 4, after [`TRAJECTORY_PER_YARN`]. It runs with one lane for each part of
@@ -117,8 +118,8 @@ pub const SETTLING_PULL_WEIGHTED: EntryPoint = EntryPoint { name: "settling_pull
 /// [`SETTLING_PULL_WEIGHTED`] in the block form.
 pub const SETTLING_PULL_BLOCK: EntryPoint = EntryPoint { name: "settling_pull_block", group: 64 };
 
-/// The step of each point, in the weighted form. It runs with one lane for each place, in the
-/// workgroups of [`SETTLING_PULL_WEIGHTED`].
+/// The step of each point, in the weighted form. It runs with one lane for each place. Each
+/// workgroup has the same places as a workgroup of [`SETTLING_PULL_WEIGHTED`].
 pub const SETTLING_STEP_WEIGHTED: EntryPoint = EntryPoint { name: "settling_step_weighted", group: 64 };
 
 /// [`SETTLING_STEP_WEIGHTED`] in the block form.

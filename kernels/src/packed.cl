@@ -110,8 +110,8 @@ void packed_odd(const Params params, const ulong window, __global const uint4 *p
     }
 }
 
-// Writes the packed vertices of caps. They have the positions of the end ring and the normal of the
-// yarn's end. It runs with one lane for each cap vertex.
+// Writes the packed vertices of caps, with one lane for each cap vertex. The vertices have the
+// positions of the end ring and the normal of the yarn's end.
 __kernel __attribute__((reqd_work_group_size(PACKED_GROUP, 1, 1)))
 void packed_caps(const Params params, const ulong window, __global const uint4 *points, __global const CapRow *rows,
                  __global uint *out) {

@@ -62,8 +62,8 @@ void block_turns(const Params params, const ulong window, __global const float4 
 }
 
 // Replaces the turn of each block by the roll at the block's start, one tile of ROLLS_GROUP blocks
-// after the other. The sum of all turns is the yarn's total turn. It runs with one workgroup of
-// ROLLS_GROUP lanes for each yarn.
+// after the other. The sum of all turns is the yarn's total turn. One workgroup of ROLLS_GROUP
+// lanes runs for each yarn.
 __kernel __attribute__((reqd_work_group_size(ROLLS_GROUP, 1, 1)))
 void yarn_rolls(__global const YarnRow *yarns, __global uint *rolls, __global uint *whole) {
     __local uint sums[ROLLS_GROUP];

@@ -4,11 +4,11 @@
 // settling_pull.wgsl is the twin of this file, and Pull in texere-core's pass.rs is the definition.
 // Pulls are added up in the order of the lists.
 //
-// Lanes write planes. A plane has a number for each place: that of the interval that begins at the
-// place. First come four slots of planes, one for each of the interval's control points. In the
-// weighted form a slot has eight planes: the displacement by contacts (x, y, z, mm) and its weight,
-// then the displacement by bends and its weight. In the block form a slot has nine planes: the
-// displacement by all pulls (x, y, z, mm), and the products xx, xy, xz, yy, yz, zz of the
+// Lanes write planes. A plane has a value for each place, which belongs to the interval that begins
+// at the place. First come four slots of planes, one for each of the interval's control points. In
+// the weighted form a slot has eight planes: the displacement by contacts (x, y, z, mm) and its
+// weight, then the displacement by bends and its weight. In the block form a slot has nine planes:
+// the displacement by all pulls (x, y, z, mm), and the products xx, xy, xz, yy, yz, zz of the
 // components of their directions, each times its weight. Six planes follow the slots: a vector
 // along the interval's chord, half as long as the interval's surplus length (x, y, z, mm); the
 // interval's length, mm; the least distance to another yarn, mm; and the least ratio of such a

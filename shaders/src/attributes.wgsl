@@ -2,7 +2,8 @@
 // common.wgsl.
 //
 // Its twins are attributes.cl and texere-cpu's attributes.rs. Lengths are whole steps of 2^-32 mm
-// (Rust: ArcLength), the lower half first, so the order of the sums does not matter.
+// (Rust: ArcLength), so the order of the sums does not matter. A length is two words, the lower
+// half first.
 
 const ATTRIBUTES_GROUP = 64u;
 const YARN_LENGTHS_GROUP = 256u;
@@ -127,8 +128,9 @@ fn lane_length(block: Block, lane: u32) -> vec2<u32> {
     return step_length(block, lane);
 }
 
-// Writes the length of each block of a chunk, from its first ring to the next block's first ring.
-// It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of the block table.
+// Writes the length of each block of a chunk, from its first ring to the next block's first ring,
+// or to the yarn's last ring. It runs with one workgroup of ATTRIBUTES_GROUP lanes for each row of
+// the block table.
 @compute @workgroup_size(ATTRIBUTES_GROUP)
 fn block_lengths(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                  @builtin(local_invocation_index) lane: u32) {

@@ -143,7 +143,7 @@ struct Segment {
 }
 
 struct Sample {
-    // Centre relative to the segment's first control point.
+    // Centre relative to P[j].
     offset: vec3<f32>,
     centre: vec3<f32>,
     half_width: f32,

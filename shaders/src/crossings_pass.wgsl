@@ -4,7 +4,8 @@
 // crossings_pass.cl is the twin of this file. CrossingBlock::step and CrossingsPlan in texere-core
 // (crossings/) are the definitions.
 
-// The lies after the last pass, without momentum.
+// The lies after the last pass, without momentum. A lie is the state of a thread at a crossing:
+// shift, height, half width and half height.
 @group(0) @binding(38) var<storage, read_write> crossings: array<vec4<f32>>;
 // The lies with momentum added, which the next pass reads.
 @group(0) @binding(39) var<storage, read_write> next: array<vec4<f32>>;
@@ -148,7 +149,8 @@ fn move_crossing(number: u32) -> vec2<f32> {
     let first = 2u * number;
     let warp = move_thread(first + WARP, end, share * step.warp);
     let weft = move_thread(first + WEFT, pick, share * step.weft);
-    // Momentum that would lead uphill in the energy is dropped.
+    // Momentum fades if the step leads uphill in the energy. None is left if the cosine between the
+    // step and the energy's slope is CROSSINGS_UPHILL or more.
     let rise = dot4(block.own, warp) + dot4(block.crossed, weft);
     let slopes = dot4(block.own, block.own) + dot4(block.crossed, block.crossed);
     let steepest = sqrt((dot4(warp, warp) + dot4(weft, weft)) * slopes);

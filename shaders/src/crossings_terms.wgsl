@@ -4,7 +4,7 @@
 // crossings_terms.cl is the twin of this file, and texere-core's crossings/terms.rs and contacts.rs
 // are the definition.
 
-// A crossing of a thread, some steps from another.
+// A crossing on a thread, some steps along the thread from another crossing.
 struct Along {
     site: vec2<u32>,
     there: bool,
@@ -32,7 +32,8 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: Thre
     let sides = vec4(0.0, 0.0, 1.0 / radius, -thread.aspect / radius);
     add_own(block, thread.shape, 1.0, wide - thread.aspect * thick, sides);
     let gain = wide * thick - cloth.area;
-    // Near its full area a section grows no faster than a section above it shrinks.
+    // Just below its full area a section takes the curvature of a section above that area.
+    // Otherwise it would grow beyond the area in one pass, and shrink back in the next.
     let weight = select(CROSSINGS_AREA_GAIN, CROSSINGS_AREA_LOSS, gain < -CROSSINGS_NEAR);
     let residual = select(gain, CROSSINGS_AREA_LOSS / weight * gain, gain < 0.0);
     let slopes = vec4(0.0, 0.0, thick / radius, wide / radius);
@@ -60,7 +61,7 @@ fn add_bend(block: ptr<function, CrossingBlock>, thread: ThreadRow, before: Alon
 
 // Adds the terms of first differences along the thread, to a crossing `gap` away: tension, and
 // evenness of sections. `sign` is -1 for the crossing before, and 1 for the one after. A taut
-// thread that changes sides pulls apart the threads between which it does.
+// thread pulls apart the two threads between which it changes sides.
 fn add_difference(block: ptr<function, CrossingBlock>, of_set: u32, here: Along, other: Along, sign: f32, gap: f32, tension: f32, evenness: f32) {
     if !other.there {
         return;
@@ -76,8 +77,8 @@ fn add_difference(block: ptr<function, CrossingBlock>, of_set: u32, here: Along,
     add_between(block, CROSSINGS_TENSION * taut, 2.0, rise, vec2(shorter, 0.0), crossed);
 }
 
-// The room between a thread and the threads that it crosses, on the way between two crossings. This
-// crossing is the second of the two if `second` is true, and otherwise the first.
+// The room between a thread and the threads that it crosses, on the way between two crossings. In
+// the functions below, `second` is true if this crossing is the second of the two.
 struct Meeting {
     room: f32,
     // The slopes of the room in the thread's height and half height, and in the unknowns of the
@@ -96,7 +97,7 @@ fn shoulder(side: f32, first: Along, last: Along, one: vec4<f32>, two: vec4<f32>
     let under = select(one, two, rises);
     let across = first.gap + two.x - one.x;
     let slope = side * (upper.y - lower.y) / across;
-    // The distance is measured upright, not across the slope.
+    // Measured upright, the thread's half height is longer by this factor than across the slope.
     let length = sqrt(1.0 + slope * slope);
     let x = under.z * slope;
     let z = under.w;
@@ -192,8 +193,8 @@ fn keep_clear(block: ptr<function, CrossingBlock>, apart: f32, rise: f32, wide: 
 }
 
 // Adds the term that keeps neighbours of one set clear half way from this crossing to the `next`.
-// There the neighbours are ellipses. They are `gap` apart before they shift. Threads further apart
-// than the next are neighbours of one level, and have to be so at both crossings.
+// There the neighbours are ellipses. They are `gap` apart before they shift. If other threads lie
+// between the neighbours, both are of one level, and have to be neighbours at both crossings.
 fn add_half_way(block: ptr<function, CrossingBlock>, of_set: u32, own: vec4<f32>, next: Along, neighbour: vec4<f32>, across: i32, gap: f32) {
     if !next.there {
         return;
@@ -271,7 +272,7 @@ fn slope_of(site: vec2<u32>, of_set: u32) -> f32 {
 }
 
 // Adds the term of the contact between both threads of a crossing, one on top of the other. Threads
-// that bend round one another touch. The block is described from the warp.
+// of one layer touch. The block is described from the warp.
 fn add_contact(block: ptr<function, CrossingBlock>, site: vec2<u32>) {
     let warp = lie_of(site, WARP);
     let weft = lie_of(site, WEFT);

@@ -16,7 +16,9 @@
 //! | `per_yarn.wgsl` | `trajectory_per_yarn`, `mesh_per_yarn` | the paper's algorithms 2 and 4 |
 //!
 //! The shaders that bring yarns to rest are in [`settling`] and [`crossings`], the shaders that
-//! make pictures in [`picture`]. The OpenCL C twins are in `texere-kernels`, file by file.
+//! make pictures in [`picture`]. Most files have an OpenCL C twin of the same name in
+//! `texere-kernels`. The files of [`picture`] and `unpack.wgsl` have none, and the twin of
+//! `settling_chords.wgsl` is a part of `settling.cl`.
 //!
 //! ```
 //! use texere_shaders::{MESH, Resource};
@@ -130,7 +132,7 @@ pub enum Resource {
     NextCrossings = 39,
     /// The measures of each workgroup of crossings.
     CrossingsGroupRows = 40,
-    /// The measures of each pass since the last wait.
+    /// The measures of each pass since the host last waited for the device.
     CrossingsPassRows = 41,
     /// For each block, the length of its yarn up to the block's first ring: `ArcLength`s.
     ArcLengths = 42,
@@ -201,8 +203,8 @@ const PACKED_SOURCE: &str =
 const ATTRIBUTES_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("attributes.wgsl"));
 const PER_YARN_SOURCE: &str = concat!(include_str!("common.wgsl"), include_str!("per_yarn.wgsl"));
 
-/// The turn of each block of a chunk. It runs with one workgroup for each row of the chunk's block
-/// table.
+/// The turn of each block of a chunk. The shader runs with one workgroup for each row of the
+/// chunk's block table.
 pub const BLOCK_TURNS: Shader = Shader {
     entry_point: "block_turns",
     source: SCAN_SOURCE,
@@ -216,7 +218,7 @@ pub const BLOCK_TURNS: Shader = Shader {
     ],
 };
 
-/// Rolls from turns, in place. It runs with one workgroup for each yarn.
+/// Rolls from turns, in place. The shader runs with one workgroup for each yarn.
 pub const YARN_ROLLS: Shader = Shader {
     entry_point: "yarn_rolls",
     source: SCAN_SOURCE,
@@ -224,7 +226,7 @@ pub const YARN_ROLLS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::Rolls)],
 };
 
-/// Rings of a chunk. It runs with one workgroup for each row of the chunk's block table.
+/// Rings of a chunk. The shader runs with one workgroup for each row of the chunk's block table.
 pub const TRAJECTORY: Shader = Shader {
     entry_point: "trajectory",
     source: concat!(include_str!("common.wgsl"), rings!(), include_str!("trajectory.wgsl")),
@@ -251,15 +253,15 @@ const MESH_BINDINGS: &[Binding] = &[
     write(Resource::Indices),
 ];
 
-/// Vertices and indices of a chunk's tubes, for an even number of sides. It runs with one workgroup
-/// for each row of the chunk's block table.
+/// Vertices and indices of a chunk's tubes, for an even number of sides. The shader runs with one
+/// workgroup for each row of the chunk's block table.
 pub const MESH: Shader =
     Shader { entry_point: "mesh", source: MESH_SOURCE, workgroup: 128, bindings: MESH_BINDINGS };
 
 /// [`MESH`] for an odd number of sides.
 pub const MESH_ODD: Shader = Shader { entry_point: "mesh_odd", ..MESH };
 
-/// Vertices and indices of a chunk's caps. It runs with one lane for each cap vertex.
+/// Vertices and indices of a chunk's caps. The shader runs with one lane for each cap vertex.
 pub const CAPS: Shader = Shader {
     entry_point: "caps",
     source: concat!(include_str!("common.wgsl"), include_str!("caps.wgsl")),
@@ -274,8 +276,8 @@ pub const CAPS: Shader = Shader {
     ],
 };
 
-/// Packed vertices of a chunk's tubes, for an even number of sides. It runs with one workgroup for
-/// each row of the chunk's block table.
+/// Packed vertices of a chunk's tubes, for an even number of sides. The shader runs with one
+/// workgroup for each row of the chunk's block table.
 pub const PACKED: Shader = Shader {
     entry_point: "packed",
     source: PACKED_SOURCE,
@@ -294,7 +296,7 @@ pub const PACKED: Shader = Shader {
 /// [`PACKED`] for an odd number of sides.
 pub const PACKED_ODD: Shader = Shader { entry_point: "packed_odd", ..PACKED };
 
-/// Packed vertices of a chunk's caps. It runs with one lane for each cap vertex.
+/// Packed vertices of a chunk's caps. The shader runs with one lane for each cap vertex.
 pub const PACKED_CAPS: Shader = Shader {
     entry_point: "packed_caps",
     source: PACKED_SOURCE,
@@ -310,7 +312,8 @@ pub const PACKED_CAPS: Shader = Shader {
 /// WGSL functions for a caller's shaders that unpack packed vertices: `unpacked_position` and
 /// `unpacked_normal`. Put this text before the shader. It binds nothing.
 ///
-/// This vertex shader draws a cloth whose middle lies at (50, 50, 0) mm from its packed vertices:
+/// This vertex shader draws a cloth from its packed vertices.
+/// The middle of the cloth lies at (50, 50, 0) mm:
 ///
 /// ```
 /// let source = format!("{}{}", texere_shaders::UNPACK, "
@@ -325,8 +328,8 @@ pub const PACKED_CAPS: Shader = Shader {
 /// ```
 pub const UNPACK: &str = include_str!("unpack.wgsl");
 
-/// The length of each block of a chunk. It runs with one workgroup for each row of the chunk's
-/// block table.
+/// The length of each block of a chunk. The shader runs with one workgroup for each row of the
+/// chunk's block table.
 pub const BLOCK_LENGTHS: Shader = Shader {
     entry_point: "block_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -340,8 +343,8 @@ pub const BLOCK_LENGTHS: Shader = Shader {
     ],
 };
 
-/// Lengths along yarns up to each block's start, in place. It runs with one workgroup for each
-/// yarn.
+/// Lengths along yarns up to each block's start, in place. The shader runs with one workgroup for
+/// each yarn.
 pub const YARN_LENGTHS: Shader = Shader {
     entry_point: "yarn_lengths",
     source: ATTRIBUTES_SOURCE,
@@ -349,8 +352,8 @@ pub const YARN_LENGTHS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::Yarns), write(Resource::ArcLengths)],
 };
 
-/// Attributes of a chunk's tubes. It runs with one workgroup for each row of the chunk's block
-/// table.
+/// Attributes of a chunk's tubes. The shader runs with one workgroup for each row of the chunk's
+/// block table.
 pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     entry_point: "attributes",
     source: ATTRIBUTES_SOURCE,
@@ -365,7 +368,7 @@ pub const ATTRIBUTES_OF_TUBES: Shader = Shader {
     ],
 };
 
-/// Attributes of a chunk's caps. It runs with one lane for each cap vertex.
+/// Attributes of a chunk's caps. The shader runs with one lane for each cap vertex.
 pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     entry_point: "cap_attributes",
     source: ATTRIBUTES_SOURCE,
@@ -373,7 +376,8 @@ pub const ATTRIBUTES_OF_CAPS: Shader = Shader {
     bindings: &[uniform(Resource::Params), read(Resource::CapRows), write(Resource::Attributes)],
 };
 
-/// The paper's algorithm 2. It runs with one lane for each part of the chunk.
+/// The paper's algorithm 2. It runs with one lane for each part of the chunk. A part is a run of
+/// one yarn's rings.
 pub const TRAJECTORY_PER_YARN: Shader = Shader {
     entry_point: "trajectory_per_yarn",
     source: PER_YARN_SOURCE,

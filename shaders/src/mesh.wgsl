@@ -8,9 +8,10 @@
 const MESH_GROUP = 128u;
 
 @group(0) @binding(5) var<storage, read> outlines: array<vec4<f32>>;
-// The indices of a ring's quads. If the number of sides is even, every block starts at a multiple
-// of 16 bytes: then the first three buffers are used, in elements of 16 bytes. If it is odd, the
-// last three are used, which are the same buffers in elements of 8 bytes.
+// The indices of a ring's quads, the chunk's vertices and the chunk's indices. Each of these
+// buffers is bound twice. If the number of sides is even, every block starts at a multiple of 16
+// bytes, and `pattern`, `vertices` and `indices` are used, with elements of 16 bytes. If the number
+// is odd, `pattern_pairs`, `vertex_pairs` and `index_pairs` are used, with elements of 8 bytes.
 @group(0) @binding(6) var<storage, read> pattern: array<vec4<u32>>;
 @group(0) @binding(7) var<storage, read_write> vertices: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> indices: array<vec4<u32>>;
@@ -18,8 +19,8 @@ const MESH_GROUP = 128u;
 @group(0) @binding(7) var<storage, read_write> vertex_pairs: array<vec2<f32>>;
 @group(0) @binding(8) var<storage, read_write> index_pairs: array<vec2<u32>>;
 
-// Four consecutive floats of ring `ring`'s vertices. The first is float `first` of its vertex, an
-// even number. The four hold floats of at most one normal and one position.
+// Four consecutive floats of ring `ring`'s vertices. `first` is the number of the first float in
+// its vertex, and is even. The four hold floats of at most one normal and one position.
 fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: vec4<f32>) -> vec4<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, normal_point);
@@ -28,8 +29,8 @@ fn four_floats(ring: u32, first: u32, normal_point: vec4<f32>, position_point: v
     return select(later, vec4(position, normal.x), first == 0u);
 }
 
-// Two consecutive floats of ring `ring`'s vertex at `point`. The first is float `first` of the
-// vertex, an even number.
+// Two consecutive floats of ring `ring`'s vertex at `point`. `first` is the number of the first
+// float in the vertex, and is even.
 fn two_floats(ring: u32, first: u32, point: vec4<f32>) -> vec2<f32> {
     let stance = stance_of(ring);
     let normal = normal_at(stance, point);

@@ -117,8 +117,8 @@ fn packed_odd(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     }
 }
 
-// Writes the packed vertices of caps. They have the positions of the end ring and the normal of the
-// yarn's end. It runs with one lane for each cap vertex.
+// Writes the packed vertices of caps, with one lane for each cap vertex. The vertices have the
+// positions of the end ring and the normal of the yarn's end.
 @compute @workgroup_size(PACKED_GROUP)
 fn packed_caps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
                @builtin(local_invocation_index) lane: u32) {

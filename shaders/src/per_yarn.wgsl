@@ -55,7 +55,8 @@ fn trajectory_per_yarn(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_wor
     }
 }
 
-// How an untwisted section stands on the ring of algorithm 2 that starts at `at`.
+// How an untwisted section stands on a ring of algorithm 2. The ring begins at element `at` of
+// `rings`.
 fn stance_at(at: u32) -> Stance {
     let centre = bitcast<vec4<f32>>(rings[at]);
     let size = bitcast<vec3<f32>>(rings[at + 2u].xyz);

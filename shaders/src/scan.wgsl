@@ -70,8 +70,8 @@ fn block_turns(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
 var<workgroup> roll_sums: array<u32, ROLLS_GROUP>;
 
 // Replaces the turn of each block by the roll at the block's start, one tile of ROLLS_GROUP blocks
-// after the other. The sum of all turns is the yarn's total turn. It runs with one workgroup of
-// ROLLS_GROUP lanes for each of `params.blocks` yarns from `params.first_yarn` on.
+// after the other. The sum of all turns is the yarn's total turn. One workgroup of ROLLS_GROUP
+// lanes runs for each of `params.blocks` yarns from `params.first_yarn` on.
 @compute @workgroup_size(ROLLS_GROUP)
 fn yarn_rolls(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) grid: vec3<u32>,
               @builtin(local_invocation_index) lane: u32) {

@@ -21,7 +21,7 @@ const PULL_SOURCE: &str = concat!(
 );
 const STEP_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_step.wgsl"));
 
-/// Chords from places. It runs with one lane for each chord.
+/// Chords from places. The shader runs with one lane for each chord.
 pub const CHORDS: Shader = Shader {
     entry_point: "settling_chords",
     source: concat!(include_str!("settling.wgsl"), include_str!("settling_chords.wgsl")),
@@ -43,7 +43,7 @@ pub const EXTENT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::Extents)],
 };
 
-/// The number of chords in each cell. It runs with one lane for each chord.
+/// The number of chords in each cell. The shader runs with one lane for each chord.
 pub const CELL_COUNT: Shader = Shader {
     entry_point: "settling_cell_count",
     source: LIST_SOURCE,
@@ -51,7 +51,7 @@ pub const CELL_COUNT: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Chords), write(Resource::CellStarts)],
 };
 
-/// Chords sorted by cells. It runs with one lane for each chord.
+/// Chords sorted by cells. The shader runs with one lane for each chord.
 pub const CELL_FILL: Shader = Shader {
     entry_point: "settling_cell_fill",
     bindings: &[
@@ -79,7 +79,7 @@ pub const SCAN_ADD: Shader = Shader { entry_point: "settling_scan_add", ..SCAN }
 /// The number of values that a workgroup of [`SCAN`] scans.
 pub const SCAN_VALUES: u32 = 1024;
 
-/// The number of each chord's neighbours. It runs with one lane for each chord.
+/// The number of each chord's neighbours. The shader runs with one lane for each chord.
 pub const COUNT: Shader = Shader {
     entry_point: "settling_count",
     source: LIST_SOURCE,
@@ -97,11 +97,12 @@ pub const COUNT: Shader = Shader {
     ],
 };
 
-/// The neighbours of each chord. It runs with one lane for each chord.
+/// The neighbours of each chord. The shader runs with one lane for each chord.
 pub const FILL: Shader = Shader { entry_point: "settling_fill", ..COUNT };
 
-/// Pulls at each interval's points, in the weighted form. It runs with one lane for each place.
-/// Each workgroup writes a row of its measures.
+/// Pulls at each interval's points, in the weighted form (`Form::Weighted` of texere-core's
+/// settling). The shader runs with one lane for each place. Each workgroup writes a row of its
+/// measures.
 pub const PULL_WEIGHTED: Shader = Shader {
     entry_point: "settling_pull_weighted",
     source: PULL_SOURCE,
@@ -122,8 +123,8 @@ pub const PULL_WEIGHTED: Shader = Shader {
 /// [`PULL_WEIGHTED`] in the block form.
 pub const PULL_BLOCK: Shader = Shader { entry_point: "settling_pull_block", ..PULL_WEIGHTED };
 
-/// The step of each point, in the weighted form. It runs with one lane for each place. The longest
-/// step goes into the workgroup's row.
+/// The step of each point, in the weighted form. The shader runs with one lane for each place. The
+/// longest step goes into the workgroup's row.
 pub const STEP_WEIGHTED: Shader = Shader {
     entry_point: "settling_step_weighted",
     source: STEP_SOURCE,
@@ -144,7 +145,7 @@ pub const STEP_WEIGHTED: Shader = Shader {
 /// [`STEP_WEIGHTED`] in the block form.
 pub const STEP_BLOCK: Shader = Shader { entry_point: "settling_step_block", ..STEP_WEIGHTED };
 
-/// The places beyond yarns' ends. It runs with one lane for each yarn.
+/// The places beyond yarns' ends. The shader runs with one lane for each yarn.
 pub const ENDS: Shader = Shader {
     entry_point: "settling_ends",
     source: STEP_SOURCE,
@@ -152,7 +153,7 @@ pub const ENDS: Shader = Shader {
     bindings: &[uniform(Resource::SettlingParams), read(Resource::Strands), write(Resource::NextPlaces)],
 };
 
-/// The measures of a pass, from the rows of all workgroups. It runs as one workgroup.
+/// The measures of a pass, from the rows of all workgroups. The shader runs as one workgroup.
 pub const SEEN: Shader = Shader {
     entry_point: "settling_seen",
     source: PULL_SOURCE,
@@ -162,7 +163,7 @@ pub const SEEN: Shader = Shader {
 
 const POINTS_SOURCE: &str = concat!(include_str!("settling.wgsl"), include_str!("settling_points.wgsl"));
 
-/// Control points from settled places. It runs with one lane for each place.
+/// Control points from settled places. The shader runs with one lane for each place.
 pub const POINTS: Shader = Shader {
     entry_point: "settling_points",
     source: POINTS_SOURCE,

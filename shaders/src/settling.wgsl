@@ -2,9 +2,9 @@
 // before each of them but the scan.
 //
 // The formulas, the thresholds and the order of operations are those of texere-core (settling/),
-// and settling.cl is the twin of this file. It is core WGSL, and requires no feature. texere-gpu
-// writes two things before this file: the core's constants, and FLATTENED, which is true if the
-// code for yarns that are not round is needed.
+// and settling.cl is the twin of this file. This file is core WGSL, and requires no feature.
+// texere-gpu writes two things before this file: the core's constants, and FLATTENED, which is true
+// if the code for yarns that are not round is needed.
 
 // Rust: texere_gpu::PlaceRow, 16 bytes.
 struct PlaceRow {

@@ -19,9 +19,9 @@ struct Contact {
     distance: f32,
 }
 
-// The pull of a contact on the first interval's points: the step that its place should make, mm,
-// the direction to the other yarn, and the weight of each of the four points. All weights are 0 if
-// the contact does not pull.
+// The pull of a contact on the first interval's points: the step that the place on this interval
+// should make, mm, the direction to the other yarn, and the weight of each of the four points. All
+// weights are 0 if the contact does not pull.
 struct Push {
     back: vec3<f32>,
     direction: vec3<f32>,

@@ -1,8 +1,8 @@
 // Unpacks packed vertices (Rust: PackedVertex) in a caller's shaders. It needs no other file.
 
-// The position, mm, from the first two words of a packed vertex. `near`, mm, is any place less than
-// 2^20 quanta away from it along each axis. All such places give the same bits. `quantum` is the
-// size of a quantum, mm. Places lie within 2^31 quanta of the origin.
+// The position, mm, from the first two words of a packed vertex. `near`, mm, is any place at most
+// 2^20 - 2 quanta away from the position along each axis. All such places give the same bits.
+// `quantum` is the size of a quantum, mm. Places lie within 2^31 quanta of the origin.
 fn unpacked_position(words: vec2<u32>, near: vec3<f32>, quantum: f32) -> vec3<f32> {
     let wrapped = bitcast<vec3<i32>>(vec3(words.x, (words.x >> 21u) | (words.y << 11u), words.y >> 10u));
     let whole = vec3<i32>(round(near / quantum));

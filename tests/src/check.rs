@@ -15,9 +15,10 @@ use crate::limits::Tight;
 use crate::oracle::Oracle;
 
 /// Runs `yarns` with `settings` on `device` in every way through a session. Compares the output
-/// with the oracle and with the gold reference: to the bit if `exact` is set, and otherwise within
-/// the bounds of [`compare`](crate::compare). Also compares the whole with chunks of a few blocks,
-/// and a closed yarn's end with its start, both to the bit.
+/// with the oracle, within the bounds of [`compare`](crate::compare). Compares the output with the
+/// gold reference, the serial CPU backend: to the bit if `exact` is set, and otherwise within the
+/// same bounds. Also compares the whole with chunks of a few blocks, and a closed yarn's end with
+/// its start, both to the bit.
 ///
 /// ```
 /// use texere_conformance::{DeferredBackend, cases, check};
@@ -27,7 +28,7 @@ use crate::oracle::Oracle;
 /// # Ok::<(), texere_conformance::drive::DriveError>(())
 /// ```
 ///
-/// **Errors**: [`DriveError`] if the device fails.
+/// **Errors**: [`DriveError`] if planning or the device fails.
 pub fn check(
     yarns: &Yarns,
     settings: Settings,
@@ -39,7 +40,7 @@ pub fn check(
 
 /// [`check`] with chunks that are cut to the limit `tight`.
 ///
-/// **Errors**: [`DriveError`] if the device fails.
+/// **Errors**: [`DriveError`] if planning or the device fails.
 pub fn check_within(
     yarns: &Yarns,
     settings: Settings,

@@ -22,7 +22,8 @@ use crate::poison::{POISONED_INDEX, POISONED_RING, POISONED_VERTEX};
 /// The most bytes of a lent piece.
 const PIECE_BYTES: usize = 4096;
 
-/// The memory of a chunk: one block, and the row of the ring that a cut repeats.
+/// The limits of a chunk: two rows of the block table. They have room for a block and the ring that
+/// a cut repeats, or for two blocks.
 const LIMITS: Limits = Limits { blocks: 2, ..Limits::NONE };
 
 /// The serial backend, with its work deferred as in a queue.

@@ -9,8 +9,8 @@ use texere_core::backend::{Plan, Session, SessionError};
 use texere_core::{Backend, Limits, MeshPiece, MeshPlace, PackedVertex, Quantum, Settings, Vertex, Yarns};
 use thiserror::Error;
 
-/// Angle by which packing may turn a normal, rad: half a step of either coordinate in the middle of
-/// a face, where a step turns it most.
+/// Angle by which packing may turn a normal, rad: half a step of both coordinates in the middle of
+/// a face of the octahedron, where a step turns the normal most.
 const NORMAL: f64 = 6.6e-5;
 
 /// Further angle that is allowed on a GPU, rad, because its two kernels need not round alike.
@@ -42,15 +42,15 @@ pub enum PackedError {
         /// The unpacked normal.
         actual: DVec3,
     },
-    /// Two vertices of one corner of one ring, in two chunks or in two cuts, are packed
-    /// differently.
+    /// A corner of a ring is not packed alike where it occurs again: in another chunk, in a chunk
+    /// of the other limits, in a cap, or at the end of a closed yarn.
     #[error("{place:?} is {one:?} and {other:?}: a crack")]
     Crack {
         /// The place of the vertex.
         place: MeshPlace,
-        /// The vertex's bits in one chunk or cut.
+        /// The vertex's bits where the corner occurred first.
         one: PackedVertex,
-        /// The vertex's bits in the other chunk or cut.
+        /// The vertex's bits where the corner occurred again.
         other: PackedVertex,
     },
 }
@@ -61,8 +61,8 @@ pub enum PackedError {
 /// Each packed vertex has to lie within half a quantum of the mesh's vertex in each coordinate,
 /// with a normal that differs by the rounding of packing alone. Unless `exact` is set, a position
 /// may differ by a whole quantum, and both may differ a little more for the rounding of f32. A
-/// corner of a ring has to be packed alike wherever it occurs: in a cap, in a ring that a chunk or
-/// a closed yarn repeats, and in both cuts.
+/// corner of a ring has to be packed alike wherever it occurs: in a ring that a chunk or a closed
+/// yarn repeats, in the chunks of both limits and, but for its normal, in a cap.
 ///
 /// ```
 /// use texere_conformance::{cases, check_packed};

@@ -101,7 +101,7 @@ pub const REGISTRY: &[Entry] = &[
 /// first call. Each is there once, in its schedule per ring, because the schedules differ only in
 /// how meshes are made.
 ///
-/// **Panics** if a backend in `TEXERE_REQUIRE` has a device that does not open.
+/// **Panics** if a backend in `TEXERE_REQUIRE` has no device, or one that does not open.
 #[must_use]
 pub fn near_devices() -> &'static [Arc<dyn Backend>] {
     static DEVICES: OnceLock<Vec<Arc<dyn Backend>>> = OnceLock::new();

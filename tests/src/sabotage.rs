@@ -140,8 +140,8 @@ impl Sabotage {
     }
 }
 
-/// The serial backend with a fault built in. Its chunks have at most two blocks, of which the ring
-/// that a cut repeats is one.
+/// The serial backend with a fault built in. Each of its chunks has at most two rows of the block
+/// table: two blocks, or a block and the ring that a cut repeats.
 #[derive(Debug)]
 pub struct SabotagedBackend {
     info: DeviceInfo,

@@ -28,7 +28,8 @@ const FULL: &str = "--full";
 /// `--full` adds the cases of [`cases::product`], and `--worst` prints the largest errors beside
 /// their tolerances.
 ///
-/// Each trial is named `case::device`. A missing backend, or a device that does not open, shows as
+/// The trial of a case is named `case::device`, and the trial of a guarantee
+/// `session::guarantee::device`. A missing backend, or a device that does not open, shows as
 /// ignored with the reason. It shows as failed if the backend is in `required`, a list of names
 /// with commas between them. Running the suite on a backend of your own takes one line in a test
 /// target without harness:

@@ -33,7 +33,7 @@ fn the_mesh_of_placed_yarns_is_the_placed_mesh() {
     let sources: Vec<_> = (0..yarns.points().len() as u32).collect();
     let yarns = yarns.with_sources(sources.clone()).unwrap();
     let before = vertices(&yarns);
-    // Scales by powers of two leave the bits of half widths as they are.
+    // Scaling by a power of two does not round half widths.
     for (turn, scale, at) in
         [(0.0, 1.0, [0.0; 3]), (0.7, 0.5, [1.0, -2.0, 3.0]), (-2.0, 4.0, [0.0, 0.0, -7.0])]
     {

@@ -350,7 +350,7 @@ fn the_edges_of_what_is_taken() {
     };
     let vast = line(&[(1e9, 3e4), (-1e9, 3e4), (1e9, 1e-4), (1e9, 3e4), (-1e9, 3e4)]);
     let tiny = line(&[(0.0, 1e-4), (1e-30, 1e-4), (1e-20, 1e-4), (1.0, 1e-4)]);
-    // A step in the radius: a growth of 1e19, whose square f32 can't hold.
+    // A step in the radius: a growth of up to 2.6e19, whose square f32 can't hold.
     let steep = line(&[(0.0, 1e-4), (1e-15, 3e4), (2e-15, 1e-4), (3e-15, 3e4)]);
     // Yarns as flat as allowed, lying flat and on edge.
     let flat = |points: &[ControlPoint], height: f32| -> Vec<ControlPoint> {

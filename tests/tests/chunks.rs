@@ -1,6 +1,6 @@
-//! Chunked output equals whole output. Parts cover every ring once, the vertices of a part are
-//! those of its rings in the whole, indices are equal after the base is added, and the triangles
-//! are the same.
+//! Chunked output equals whole output. Parts cover every ring once, apart from rings that a cut
+//! repeats. The vertices of a part are those of its rings in the whole. The triangles are the same,
+//! if each corner is named by yarn, ring and point of the section.
 
 use std::sync::Arc;
 
@@ -328,8 +328,8 @@ fn draws_make_the_triangles_of_the_whole() {
     });
 }
 
-/// A yarn with more gaps than the shared pattern takes several draws. Its triangles are those of an
-/// indexed mesh, which has more than twice as many indices.
+/// A yarn that has more gaps between rings than the shared pattern covers takes several draws. Its
+/// triangles are those of an indexed mesh, which has more than twice as many indices.
 #[test]
 fn a_yarn_longer_than_the_shared_pattern_is_drawn_in_several_goes() {
     let yarns = winding(1_000, Yarn::default());

@@ -131,8 +131,8 @@ fn a_rotation_minimising_frame_does_not_turn_round_a_circle() {
 }
 
 /// The normal of a helix's Frenet frame points at the axis. A frame that does not turn about the
-/// tangent turns against it by minus torsion times arc length (Bishop 1975). The torsion is b / (a²
-/// + b²) for radius a and rise b per radian.
+/// tangent turns against the Frenet frame by minus torsion times arc length (Bishop 1975). For
+/// radius a and rise b per radian, the torsion is b / (a² + b²).
 #[test]
 fn a_rotation_minimising_frame_unwinds_the_torsion_of_a_helix() {
     let per_turn = 64.0;
@@ -187,10 +187,10 @@ fn flattened_yarn(
 /// Relative error of a half float, and of the spline between two of them.
 const HALF_FLOAT: f64 = 1e-3;
 
-/// On a level circle of radius R the upright side points at the centre, and the up points along z.
-/// With half width a, half height b and distance ρ from the axis, the surface is ((ρ - R)/a)² +
-/// (z/b)² = 1 at each angle. The normal has the direction of that function's gradient, in which a
-/// and b grow along the yarn's arc.
+/// On a level circle of radius R, the side of the upright frame points at the centre, and its up
+/// points along z. With half width a, half height b and distance ρ from the axis, the surface is
+/// ((ρ - R)/a)² + (z/b)² = 1 at each angle. The normal has the direction of the gradient of the
+/// left side, with a and b that change along the yarn.
 #[test]
 fn a_flattened_circle_makes_a_torus_of_ellipses() {
     let turned = |k: f64| TAU * k / f64::from(POINTS);
@@ -221,8 +221,8 @@ fn a_flattened_circle_makes_a_torus_of_ellipses() {
     }
 }
 
-/// On a helix about z the upright side points at the axis. The up is at right angles to it and to
-/// the tangent.
+/// On a helix about z, the side of the upright frame points at the axis. Its up is at right angles
+/// to the side and to the tangent.
 #[test]
 fn a_flattened_helix_has_an_ellipse_in_each_of_its_normal_planes() {
     let (out, rise, per_turn) = (2.0, 0.6, 48.0);

@@ -47,8 +47,8 @@ fn sources_use_every_constant_and_define_none_of_them() {
     }
 }
 
-/// Any other number with a fraction or an exponent would be a constant that the core does not
-/// define.
+/// Numbers with a fraction or an exponent are those of a short list. Any other such number would be
+/// a constant that the core does not define.
 #[test]
 fn formulas_have_no_other_number_than_small_ones() {
     const PLAIN: [f32; 9] = [0.0, 0.125, 0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0];

@@ -1,5 +1,6 @@
 //! Settling of crossings on every device of the registry, against `cpu-serial`: positions of
-//! threads, the measures of passes, and whole courses. A course is here all passes of one settling.
+//! threads, the measures of passes, and whole settlings. A course is here a row of passes: eight of
+//! them, or all of one settling.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -15,8 +16,8 @@ use texere_cpu::SerialBackend;
 use texere_opencl::OpenClBackend;
 use texere_wgpu::WgpuBackend;
 
-/// Cloth whose ends are all alike, and whose picks are all alike. Pitches and diameters, mm, are
-/// those of the ends and those of the picks.
+/// Cloth whose ends are all alike, and whose picks are all alike. In `pitch` and `diameter`, mm,
+/// the value of the ends comes before that of the picks.
 fn even(
     pitch: [f32; 2],
     diameter: [f32; 2],
@@ -53,7 +54,8 @@ fn uneven(ends: usize, picks: usize) -> Crossings {
 
 /// Threads that take the levels of their set in turn. With equally many levels of both sets each
 /// layer is plain weave; otherwise each level is a twill. In figured cloth the layers change places
-/// at every `figure` threads. It is more open, so that its threads have room there.
+/// at every `figure` threads. Figured cloth is more open, so that threads have room to change
+/// places.
 fn layers([across, along]: [u32; 2], [ends, picks]: [usize; 2], figure: Option<usize>) -> Crossings {
     let threads = |count: usize, levels: u32, spacing: f32| -> Vec<CrossingThread> {
         vec![CrossingThread::new(spacing / levels as f32, 0.2); count]
@@ -128,8 +130,9 @@ fn cloths() -> Vec<(&'static str, Crossings)> {
         ("figured treble cloth", layers([3, 3], [18, 18], Some(9))),
         ("orthogonal weave", orthogonal()),
         ("a piece of double cloth", layers([2, 2], [13, 11], None).repeats(false, false)),
-        // Its open edges slide for more than three hundred passes. How many it takes until they are
-        // still depends on roundings, so it is compared on the way.
+        // The open edges of this piece slide for more than three hundred passes. The number of
+        // passes until they are still depends on roundings. The piece is therefore compared after
+        // 200 passes.
         ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false).passes(200)),
         ("uneven", uneven(37, 29)),
         ("uneven, ends repeat", uneven(12, 9).repeats(true, false)),
@@ -209,7 +212,7 @@ fn seen_apart(one: &CrossingsSeen, other: &CrossingsSeen) -> f32 {
 
 /// Tolerance of a course. Threads that only just touch, or that can take either of two slopes,
 /// amplify a rounding. The tolerance is ten times the change of the reference's own course when it
-/// begins one rounding off, and [`OFF`] at least.
+/// begins up to two roundings off, and [`OFF`] at least.
 fn certain(plan: &Arc<CrossingsPlan>, begin: &[CrossingState], first: u32, expected: &Course) -> f32 {
     let mut beside = begin.to_vec();
     for (number, value) in bytemuck::cast_slice_mut::<_, f32>(&mut beside).iter_mut().enumerate() {
@@ -355,8 +358,8 @@ fn cloths_come_to_the_same_rest_on_every_device() {
     assert!(at_rest >= 4, "{at_rest} come to rest");
 }
 
-/// A device makes as many passes as the problem allows, and only one if the caller breaks off after
-/// the first.
+/// A settling counts as many passes as the problem allows, and only one if the caller breaks off
+/// after the first.
 #[test]
 fn passes_end_where_they_should() {
     let problem = even([0.4; 2], [0.2; 2], [2, 2], |end, pick| (end + pick).is_multiple_of(2));

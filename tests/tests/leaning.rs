@@ -35,8 +35,8 @@ fn least(yarns: &Yarns) -> f64 {
     clearance(yarns, &Settings::default()).unwrap().min
 }
 
-/// `yarns` bent around a cylinder of this radius, mm. Its axis lies in the plane of the cloth,
-/// `way` radians from y.
+/// `yarns` bent around a cylinder of this radius, mm. Its axis runs below the cloth, parallel to
+/// the cloth's plane, `way` radians from y.
 fn cylinder(yarns: &Yarns, radius: f64, way: f64) -> Yarns {
     let (sin, cos) = way.sin_cos();
     let map = |[x, y, z]: [f64; 3]| {
@@ -102,7 +102,7 @@ fn poplin_at_rest_keeps_its_clearance_wherever_it_goes() {
         let after = least(&turned(flat, [degrees.to_radians(), 0.0]).0);
         assert!((after - before).abs() < 0.003, "{degrees} degrees: {after} for {before}");
     }
-    // Without its up directions it would pierce.
+    // Without its up directions the tilted cloth would pierce itself.
     let tilted = turned(flat, [1.0, 0.0]).0;
     let layout = tilted.layout().as_ref().clone();
     let upright = Yarns::new(layout, tilted.materials().to_vec(), tilted.points().to_vec()).unwrap();
@@ -213,7 +213,7 @@ fn the_mesh_of_a_turned_cloth_is_the_turned_mesh() {
                         let off = (turn * wide(one.position)).distance(wide(other.position));
                         let leans = (turn * wide(one.normal)).distance(wide(other.normal));
                         let name = &device.info().name;
-                        // Halves are rounded to eleven bits.
+                        // Half widths and half heights are rounded to eleven bits.
                         assert!(
                             off < 3e-4 && leans < 8e-3,
                             "{name}, {frame:?}, {angles:?}, {number}: {off}, {leans}"
@@ -299,7 +299,7 @@ fn flat_yarns_that_are_raised_are_live() {
     }
 }
 
-/// The whole mesh that `live` keeps.
+/// The vertices and chunks of the mesh that `live` keeps, without indices and materials.
 fn kept(live: &mut LiveMesh) -> Mesh {
     let mut kept = Mesh {
         plan: live.plan().clone(),
@@ -407,8 +407,9 @@ fn ups_that_are_none_are_named() {
     assert!(flat.mapped(|[x, _, _]| [x, x, x]).is_err());
 }
 
-/// A live mesh of bent cloth equals a fresh one. It refuses to move a yarn within its plan. A ray
-/// from outside hits the surface that lies there.
+/// A live mesh of bent cloth equals a fresh one. It refuses other points for a yarn, because the
+/// yarn's up directions were given with its points. A ray from just outside a triangle hits the
+/// triangle, or a surface before it.
 #[test]
 fn bent_cloth_is_kept_live_and_picked() {
     let bent = saddle(&cloth(Section::Circle, 0.0), 6.0);

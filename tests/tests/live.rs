@@ -81,7 +81,7 @@ fn cloth(bits: u64, twist: f32, selvedge: bool) -> Woven {
     cloth
 }
 
-/// The model of the fabric: the weave, the yarns that were set, and the colours.
+/// The test's own record of the fabric: the weave, all yarns as they now lie, and the materials.
 #[derive(Clone, PartialEq)]
 struct Model {
     cloth: Woven,
@@ -95,7 +95,7 @@ impl Model {
         Self { materials: cloth.materials().to_vec(), yarns, cloth }
     }
 
-    /// Weaves the cloth with other lifts. Yarns that cross there become those of the weave again.
+    /// Weaves the cloth with other lifts. Yarns whose woven path this changes lie as woven again.
     fn lift(&mut self, lifts: &[(usize, usize, bool)]) {
         let before = yarns_of(&self.cloth.yarns().unwrap());
         let drawdown = self.cloth.drawdown().clone();

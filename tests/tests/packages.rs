@@ -41,8 +41,8 @@ fn text(value: &Value) -> &str {
     value.as_str().unwrap()
 }
 
-/// The `rust-version` of a package is the newest Rust that one of its dependencies needs, or
-/// texere's own code. The workflow checks the package with that version.
+/// The `rust-version` of a package is the newest Rust that its own code or one of its dependencies
+/// needs. The workflow checks the package with that version.
 #[test]
 fn each_package_names_the_oldest_rust_that_builds_it() {
     let metadata = metadata();
@@ -74,8 +74,8 @@ fn each_package_names_the_oldest_rust_that_builds_it() {
             newer.insert((name, claimed));
         }
     }
-    // A dependency of texere-view needs a newer Rust than texere's own code. Without it in the
-    // list, the loop above has not followed dependencies.
+    // A dependency of texere-view needs a newer Rust than texere's own code. If texere-view is not
+    // in the list, the loop above has not followed dependencies.
     assert!(newer.contains(&("texere-view", "1.95")), "{newer:?}");
     let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows/ci.yml");
     let workflow = std::fs::read_to_string(workflow).unwrap();
@@ -126,7 +126,7 @@ fn no_gpu_backend_needs_a_cpu_backend_or_the_other_gpu_backend() {
     assert_without(&["texere-wgpu"], &["texere-cpu", "texere-opencl", "opencl3"]);
 }
 
-/// Neither a GPU backend nor what GPU backends share is among the packages that these need.
+/// Packages that need no GPU depend on no GPU backend, and on no crate that GPU backends share.
 #[test]
 fn what_needs_no_gpu_has_none() {
     let shared = ["texere-gpu", "texere-kernels", "texere-shaders"];

@@ -186,8 +186,8 @@ proptest! {
     #[test]
     fn positions_are_rounded_by_half_a_quantum_and_alike_near_any_place(
         position in prop::array::uniform3(prop_oneof![-1e9f32..1e9, -300.0f32..300.0, -1e-3f32..1e-3]),
-        // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an
-        // assertion of its own where the lower bound has finer digits than the upper one.
+        // proptest 1.12 may fail an assertion of its own where the lower bound of a range has finer
+        // binary digits than the upper one. The range therefore starts at 0.
         reach in prop_oneof![0.0f32..1e3, 0.0f32..1e9].prop_map(|reach| reach.max(1e-2)),
         shares in prop::array::uniform2(prop::array::uniform3(-1.0f64..1.0)),
     ) {

@@ -17,9 +17,9 @@ fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![6 => (-3i8..=3).prop_map(f32::from), 3 => -10.0f32..10.0, 1 => -1e6f32..1e6, 1 => Just(0.0)]
 }
 
-/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
-/// unit. proptest 1.12 may fail an assertion of its own where the lower bound has finer digits than
-/// the upper one.
+/// Numbers from the least to below the most. proptest 1.12 may fail an assertion of its own where
+/// the lower bound of a range has finer binary digits than the upper one. Numbers are therefore
+/// drawn from 0 on.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }

@@ -73,7 +73,8 @@ fn lengths_are_against_the_start() {
 
 #[test]
 fn a_yarn_is_near_itself_only_further_along() {
-    // Every place of a tight ring is near to others. Two places count only from half way round on.
+    // Every place of a tight ring is near to others. Two places count only if the yarn between them
+    // is at least π/2 diameters long.
     let ring = start(vec![circle(DVec3::ZERO, [DVec3::X, DVec3::Y], 0.6, 24, 0.5)]);
     let report = check(&ring, &ring.points());
     let chord = 1.2 * (TAU / 4.0 / 1.2f64).sin();
@@ -111,7 +112,8 @@ fn straight_yarns_are_as_far_apart_as_they_are() {
     wide.repeat = [0.0, 10.0];
     assert!((check(&wide, &wide.points()).clearance - 1.4).abs() < 1e-9);
 
-    // A yarn alone meets its own image. Further along, the image is the yarn itself.
+    // A yarn alone meets its own image beside it. Without a repeat along x it meets only itself,
+    // further along the yarn.
     let mut alone = start(vec![straight(0.0, 0.0, 0.5)]);
     alone.repeat = [0.7, 10.0];
     assert!((check(&alone, &alone.points()).clearance - 0.7).abs() < 1e-9);
@@ -139,10 +141,10 @@ fn the_integral_of_linked_circles_is_one() {
 /// Every start: its clearance, the least radius of curvature and the thickness, both in diameters.
 ///
 /// Jersey, warp knits of one bar, and weaves are as clear as their models promise. In rib, garter,
-/// tuck, miss and lace, each half of a loop lies on the side of the loop that crosses it there, and
-/// loops on one needle lie in layers. These starts are clearer than they would be with loops that
-/// are all equal, which would pierce to 0.4. The two bars of a warp knit always pierce one another
-/// at the start.
+/// tuck, miss and lace, the lower half of a loop lies on the side to which the loop itself is
+/// drawn, and the upper half on the side to which the next loop is drawn. Loops on one needle lie
+/// in layers. These starts are clearer than they would be with loops that are all equal, which
+/// would pierce to 0.4. The two bars of a warp knit always pierce one another at the start.
 const LISTED: [(&str, f64, f64, f64); 39] = [
     ("jersey-4.2", 0.995, 0.715, 2.27),
     ("jersey-5", 1.003, 0.956, 2.22),
@@ -233,7 +235,7 @@ fn a_pulled_stitch_is_a_crossing() {
     for loop_at in 0..9 {
         let (course, wale) = (loop_at / 3, loop_at % 3);
         let mut pulled = start.points();
-        // The upper legs and the head move below the feet of the loop that was drawn through.
+        // The upper legs and the head of a loop move below the feet of the loop drawn through it.
         for point in &mut pulled[course][12 * wale + 4..12 * wale + 9] {
             point.y -= 0.6 * (point.y - 3.75 * course as f64);
         }
@@ -289,8 +291,9 @@ fn lace_hangs_together() {
         assert!(found.at.unwrap().iter().any(|place| place.yarn == 1), "{what}: {found:?}");
     }
 
-    // The left foot of the arch can be lifted out of the cloth to the face. The foot of a loop that
-    // goes through another one can't be. The right foot lies behind the moved loop.
+    // The loop on the empty needle is an arch whose left foot can be lifted out of the cloth to the
+    // face. The foot of a loop that goes through another one can't be lifted. The right foot of the
+    // arch lies behind the moved loop.
     for (course, crosses) in [(1, false), (2, true)] {
         let mut lifted = lace.points();
         lifted[course][1..3].iter_mut().for_each(|foot| foot.z += 4.0);

@@ -46,8 +46,8 @@ fn starts_come_to_rest() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
-/// Large cloths that nowhere repeat, with many moving points. The worst points decide whether they
-/// are at rest.
+/// Large cloths with many moving points: a knit of random misses, and lace whose repeats settle
+/// together. The worst points decide whether a cloth is at rest.
 #[test]
 fn large_cloths_come_to_rest() {
     let failed: Vec<_> = [random_misses(30, 1), lace(25)].iter().filter_map(lacking).collect();

@@ -1,5 +1,5 @@
 //! Settling on every device of the registry, against `cpu-serial`: positions, the measures of
-//! passes, neighbours, and whole courses.
+//! passes, neighbours, and whole settlings. A course is here a row of eight passes.
 
 use std::sync::Arc;
 
@@ -70,9 +70,9 @@ fn places(plan: &SettlingPlan) -> Vec<Place> {
     all.filter(|(_, tags)| **tags & tag::POINT != 0).map(|(place, _)| *place).collect()
 }
 
-/// The start positions, each moved by up to a hundredth of a diameter along each axis, as at the
-/// beginning of every course. Without this, rounding alone decides where symmetrical yarns go. In
-/// addition, `units` are added or subtracted in a pattern.
+/// The start positions, each moved by up to a hundredth of a diameter along each axis, as in a
+/// settling before yarns begin to grow. Without this, rounding alone decides where symmetrical
+/// yarns go. In addition, `units` are added or subtracted in a pattern.
 fn begin(plan: &SettlingPlan, units: i32) -> Vec<Place> {
     let far = 0.01 * plan.spans().diameter / plan.scale().unit();
     let (mut bits, mut all) = (1_u32, places(plan));
@@ -109,8 +109,9 @@ impl Course {
     }
 }
 
-/// Eight passes of either form, in which neighbours are listed twice. Bends are as soft as in that
-/// form's passes.
+/// Eight passes of `form`, in which neighbours are listed twice. In the weighted form the ease is
+/// 0.5, half of its value while the yarns of a settling grow. In the block form it is 0, as in a
+/// settling.
 fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Result<Course, BackendError> {
     let mut course = Course { neighbours: Vec::new(), seen: Vec::new(), places: begin.to_vec() };
     settler.upload(begin)?;
@@ -129,10 +130,10 @@ fn eight_passes(settler: &mut dyn Settler, form: Form, begin: &[Place]) -> Resul
 /// Tolerance of positions, in mean diameters.
 const OFF: f64 = 1e-4;
 
-/// The result of `cpu-serial` for a plan; and its own largest change when positions begin up to
-/// three units off, which are three millionths of a diameter. Parallel yarns that pierce one
-/// another, such as the underlaps of two guide bars, have no single nearest place. A contact that
-/// just touches counts from one pass on or from the next.
+/// The result of `cpu-serial` for a plan, and the largest change of that result if positions begin
+/// up to three units off, a few millionths of a diameter. The change may be large, because parallel
+/// yarns that pierce one another, such as the underlaps of two guide bars, have no single nearest
+/// place. A contact that only just touches may also count one pass sooner or later.
 struct Reference {
     course: Course,
     own: f64,
@@ -173,7 +174,7 @@ fn faults(plan: &SettlingPlan, found: &Course, reference: &Reference) -> Vec<Str
             [found.step, expected.step],
             [found.clearance, expected.clearance],
             [found.radius, expected.radius],
-            // Shares that are mere rounding are not compared.
+            // With the addend, shares of length that are mere rounding count as equal.
             [found.length + 1e-3, expected.length + 1e-3],
         ];
         if reference.is_certain() && both.iter().any(|[found, expected]| !near(*found, *expected)) {

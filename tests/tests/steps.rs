@@ -18,8 +18,8 @@ fn yarns() -> Yarns {
 /// The default limit of a chunk's buffer, bytes, by the docs of `Limits`.
 const CHUNK_BUFFER: u64 = 64 << 20;
 
-/// The number of rings of six sides that fit this buffer. A ring has 36 indices of 4 bytes, or 6
-/// vertices of 24 bytes.
+/// The number of rings of six sides that fit [`CHUNK_BUFFER`]. A ring has 36 indices of 4 bytes, or
+/// 6 vertices of 24 bytes.
 const STEP_RINGS: u64 = CHUNK_BUFFER / 144;
 
 fn device() -> Box<dyn Backend> {

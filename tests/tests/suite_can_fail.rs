@@ -154,7 +154,7 @@ fn run_trials(filter: &str, registry: &[Entry], required: &str) -> (bool, String
     (format!("{code:?}") == format!("{:?}", ExitCode::SUCCESS), printed)
 }
 
-/// The names of the trials with `filter` in their names that fail.
+/// The names of the trials that fail among those with `filter` in their names.
 fn failures(filter: &str, registry: &[Entry], required: &str) -> Vec<String> {
     let (passed, printed) = run_trials(filter, registry, required);
     let failed = failed(&printed);

@@ -32,8 +32,8 @@ fn plan(yarns: &[(usize, bool)]) -> Plan {
 
 fn point() -> impl Strategy<Value = ControlPoint> {
     let number = -1e6f32..1e6;
-    // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an assertion
-    // of its own where the lower bound has finer digits than the upper one.
+    // proptest 1.12 may fail an assertion of its own where the lower bound of a range has finer
+    // binary digits than the upper one. The range therefore starts at 0.
     let radius = (0.0f32..1e3).prop_map(|radius| radius.max(1e-3));
     let flatness = prop_oneof![9 => Just(1.0f32), 1 => (0.0f32..10.0).prop_map(|flatness| flatness.max(0.1))];
     (number.clone(), number.clone(), number, radius, flatness).prop_map(|(x, y, z, r, flatness)| {

@@ -7,8 +7,8 @@ use crate::steps::Steps;
 pub(crate) enum Build {
     /// Optimised, as users have them.
     Released,
-    /// With all packages of the workspace, as tests have them. Checks use these, so that they are
-    /// not compiled a second time.
+    /// Together with all packages of the workspace, as for the tests. Checks use this build, so
+    /// that no package is compiled a second time.
     Tested,
 }
 
@@ -24,13 +24,14 @@ impl Build {
     /// Builds the `texere` program and the library of C. [`Build::Tested`] builds that of Python,
     /// too.
     pub(crate) fn libraries(self, steps: &mut Steps) {
-        // One call builds both. If each were built by itself, wgpu would have other features, and
-        // each build would compile it again after the other.
+        // One call builds the program and the library. In two calls, wgpu would have different
+        // features, so that each call would compile wgpu again.
         let released = ["--package", "texere-capi", "--package", "texere-cli", "--no-default-features"];
         let released = [&["--release"][..], &released, &["--features", "texere-capi/default"]].concat();
         let chosen = match self {
             Self::Released => released,
-            // Examples have the features of tests. Without examples, all would be compiled twice.
+            // Examples and tests need the dev-dependencies. Without the examples, cargo would
+            // choose other features than for tests, and compile the packages again.
             Self::Tested => vec!["--workspace", "--lib", "--bin", "texere", "--examples"],
         };
         steps.cargo("the program and its libraries", &[&["build", "--locked"][..], &chosen].concat(), &[]);

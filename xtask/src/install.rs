@@ -81,7 +81,7 @@ fn abi(header: &str) -> io::Result<&str> {
     number.ok_or_else(|| io::Error::other("the header has no TEXERE_ABI"))
 }
 
-/// Lays the libraries in the folder `built` and all that belongs to them under `prefix`.
+/// Copies the libraries from the folder `built` to `prefix`, with all files that belong to them.
 fn lay(prefix: &Path, built: &Path, assembly: &[&str]) -> io::Result<()> {
     let (include, lib) = (prefix.join("include"), prefix.join("lib"));
     let headers = root().join("crates/texere-capi/include");

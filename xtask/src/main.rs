@@ -1,5 +1,5 @@
-//! Tasks of the repository. CI runs `cargo xtask test` and `cargo xtask check` on every change, and
-//! `cargo xtask mutate` every week. Other tasks measure, draw pictures, and install.
+//! Tasks of the repository. CI runs the tasks `test`, `check`, `demo`, `hosts` and `python` on
+//! every change, and `mutate` every week. Other tasks measure, draw pictures, pack, and install.
 
 mod bench_tables;
 mod build;
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
             check(&mut steps);
             install(&mut steps, "valgrind", &["valgrind"]);
             install_for_programs(&mut steps);
-            // Counting and most programs keep one core busy.
+            // The count of instructions keeps one core busy, and so do most programs of `hosts`.
             steps.beside(
                 |steps| {
                     instructions::check(steps);
@@ -119,9 +119,9 @@ fn test(steps: &mut Steps) {
     steps.beside(tests, |steps| python(steps, Build::Tested));
 }
 
-/// Builds and runs the tests in Rust, in two halves beside each other, because many tests keep one
-/// core busy. Both halves choose from all packages: of a part of them, the dependencies would have
-/// other features and would be compiled again.
+/// Builds and runs the tests in Rust, in two halves beside each other, because many tests keep only
+/// one core busy. Both halves choose from all packages. For a part of the packages, the
+/// dependencies would have other features and would be compiled again.
 fn tests(steps: &mut Steps) {
     let packages = match workspace::packages() {
         Ok(packages) => packages,
@@ -153,8 +153,8 @@ fn python(steps: &mut Steps, build: Build) {
     python::test(steps, build);
 }
 
-/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. Its
-/// other crates have the versions with which the workspace is tested.
+/// Builds and runs a program outside the workspace as `cargo run` does, without optimisation. The
+/// crates that it links have the versions with which the workspace is tested.
 fn consumer(steps: &mut Steps) {
     let versions = root().join("Cargo.lock");
     if let Err(error) = std::fs::copy(versions, root().join("tests/consumer/Cargo.lock")) {
@@ -164,8 +164,9 @@ fn consumer(steps: &mut Steps) {
     steps.cargo("a program that links texere, unoptimised", &program, &[]);
 }
 
-/// Installs Debian's `packages` if they are missing and can be installed. If no device runs a
-/// backend, the suite leaves that backend out, or fails if `TEXERE_REQUIRE` names it.
+/// Installs Debian's `packages` if some are missing. Does nothing if the system is not Linux or has
+/// no `apt-get`. For a backend without a device, the conformance suite leaves the backend out, or
+/// fails if `TEXERE_REQUIRE` names it.
 fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
     let installed = |package: &str| steps.succeeds("dpkg", &["--status", package]);
     if !cfg!(target_os = "linux") || !steps.succeeds("apt-get", &["--version"]) {
@@ -182,8 +183,8 @@ fn install(steps: &mut Steps, what: &str, packages: &[&'static str]) {
 /// included.
 const LINKED_MOST: usize = 36;
 
-/// Compiles the package `texere` without features, and then with one feature at a time. Counts the
-/// packages that it links with its default features.
+/// Lints the package `texere` without features, and then with the feature of one file format at a
+/// time. Fails if the package links more than [`LINKED_MOST`] packages with its default features.
 fn features(steps: &mut Steps) {
     for feature in ["", "glb", "images", "knitout", "obj", "pictures", "ply", "stl", "texgen", "toml", "wif"]
     {
@@ -202,8 +203,8 @@ fn features(steps: &mut Steps) {
     }
 }
 
-/// Installs what programs in other languages that link the library need. One of them makes a
-/// picture.
+/// Installs the compilers and the Vulkan driver for the programs of `hosts`. Some of these programs
+/// draw pictures.
 fn install_for_programs(steps: &mut Steps) {
     vulkan::install(steps);
     install(steps, "compilers", &hosts::PACKAGES);
@@ -227,12 +228,13 @@ fn check(steps: &mut Steps) {
         steps.cargo("docs of the facade", &facade, &[("RUSTDOCFLAGS", "-D warnings")]);
     }
     if !steps.succeeds("cargo", &["deny", "--version"]) {
-        // Without optimisation or debug info, because it is compiled for much longer than it runs.
+        // cargo-deny is built without optimisation or debug info, because the build takes much
+        // longer than a run.
         let plain = [("CARGO_PROFILE_DEV_DEBUG", "false")];
         steps.cargo("install cargo-deny", &["install", "cargo-deny", "--locked", "--debug"], &plain);
     }
-    // Advisories need a database that is fetched from the net at run time; the weekly workflow
-    // checks them.
+    // Advisories need a database that is fetched from the net at run time. A job of CI checks
+    // them.
     steps.cargo("licences and sources", &["deny", "--locked", "check", "bans", "licenses", "sources"], &[]);
     spelling(steps);
     publishing::check(steps);

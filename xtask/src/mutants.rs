@@ -1,7 +1,8 @@
-//! The mutants that the conformance suite has to catch. There is a line with a plausible mistake in
-//! each kernel, and in the prelude, the definitions that stand before every kernel.
+//! The mutants that the conformance suite has to catch. Each is a plausible mistake in a kernel
+//! that makes rings or meshes, in the choice between programs, or in the prelude, the definitions
+//! that stand before every kernel. Kernels for attributes, settling and pictures have no mutants.
 
-/// A mutant: one line of a kernel or of the prelude, and a broken replacement.
+/// A mutant: a part of a line of source code, and a broken replacement.
 #[derive(Debug)]
 pub(crate) struct Mutant {
     /// The backend's name, in `TEXERE_REQUIRE` and in the names of trials.
@@ -41,8 +42,8 @@ const fn wgpu(file: &'static str, kernel: &'static str, line: &'static str, brok
     Mutant { backend: "wgpu", file, kernel, line, broken }
 }
 
-/// All mutants. If the OpenCL and the WGSL file of a kernel have the same line, each file has a
-/// different mutant.
+/// All mutants. A kernel's OpenCL file and its WGSL file are twins, so they are broken in different
+/// ways.
 pub(crate) const MUTANTS: &[Mutant] = &[
     // The arctangent uses a wrong coefficient.
     opencl(
@@ -51,7 +52,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "float(\"ARCTANGENT_5\", ARCTANGENT[2]),",
         "float(\"ARCTANGENT_5\", ARCTANGENT[3]),",
     ),
-    // The radius of a thin place is held at another share of its neighbours than in the core.
+    // The least radius between two control points is another share of their radii than in the core.
     wgpu(
         "crates/texere-gpu/src/prelude.rs",
         "prelude",
@@ -60,12 +61,11 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // Flattened yarns get the program for round yarns.
     opencl("crates/texere-gpu/src/upload.rs", "runs", "!all_round(lent)", "lent.is_empty()"),
-    // The clamp at the yarn's last ring is left out: the ring lies at t = 0 of an interval that
-    // does not exist.
+    // The yarn's last ring lies at the start of the last interval instead of at its end.
     opencl("kernels/src/common.cl", "ring_sample", "        t = 1.0f;", "        t = 0.0f;"),
-    // The roll of a ring includes the turn of that ring itself.
+    // The roll of a ring includes the turn from that ring to the next one.
     opencl("kernels/src/rings.cl", "block_rings", "start + sum - turn", "start + sum"),
-    // Every block gets the roll of its yarn's first block, which yarns of one block don't show.
+    // Every block gets the roll of its yarn's first block. Yarns of one block don't show this.
     opencl(
         "kernels/src/rings.cl",
         "block_rings",
@@ -74,7 +74,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // The step to the next block's first ring is left out.
     opencl("kernels/src/scan.cl", "block_turns", "lane < block.quads", "lane + 1u < block.quads"),
-    // Only the tile before is added, which yarns of no more than two tiles don't show.
+    // Only the sum of the tile before is added. Yarns of one or two tiles don't show this.
     opencl("kernels/src/scan.cl", "yarn_rolls", "before += sums", "before = sums"),
     // All rings of a block get the tangent of the first.
     opencl(
@@ -90,7 +90,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "normal_point = outline[4u * store / 6u];",
         "normal_point = outline[(4u * store + 2u) / 6u];",
     ),
-    // If a ring has more stores than a workgroup has lanes, the rest is left out.
+    // If a ring has more stores than a workgroup has lanes, no lane stores anything.
     opencl(
         "kernels/src/share.cl",
         "share_of",
@@ -118,7 +118,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "select(vec2(1.0), vec2(-1.0), level < vec2(0.0));",
         "select(vec2(-1.0), vec2(1.0), level < vec2(0.0));",
     ),
-    // If the number of sides is odd, words begin with the wrong one.
+    // If the number of sides is odd, each word of a vertex lies in the place of the word before.
     wgpu(
         "shaders/src/packed.wgsl",
         "packed_odd",
@@ -139,7 +139,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "cap->end == 0u ? -1.0f : 1.0f",
         "cap->end == 0u ? 1.0f : -1.0f",
     ),
-    // The width grows, but normals don't lean.
+    // The width grows along the yarn, but normals are those of a constant width.
     opencl(
         "kernels/src/per_yarn.cl",
         "trajectory_per_yarn",
@@ -167,7 +167,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "rolled(stance, point.zw) * vec2(stance.height.x, stance.centre.w);",
         "rolled(stance, point.zw) * vec2(stance.centre.w, stance.height.x);",
     ),
-    // Heights are held at the least half width.
+    // The lower limit of half heights is that of half widths.
     wgpu(
         "shaders/src/common.wgsl",
         "segment_sample",
@@ -176,14 +176,14 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     ),
     // The last quads of each part are missing.
     opencl("kernels/src/per_yarn.cl", "mesh_per_yarn", "ring < part.quads", "ring + 1u < part.quads"),
-    // The side points the other way, as in a mirror image.
+    // The sine of turns near half a turn has the wrong sign.
     wgpu(
         "shaders/src/common.wgsl",
         "turn_sin_cos",
         "case 2u: { return vec2(-sine, -cosine); }",
         "case 2u: { return vec2(sine, -cosine); }",
     ),
-    // A block's rolls start from nothing, which yarns of one block don't show.
+    // The rolls of each block start at 0. Yarns of one block don't show this.
     wgpu(
         "shaders/src/rings.wgsl",
         "block_rings",
@@ -197,14 +197,14 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "yarn.first_block * BLOCK_RINGS + ring];",
         "yarn.first_block * BLOCK_RINGS + ring + 1u];",
     ),
-    // Every step is measured from the block's first ring.
+    // The turn of a block is summed as if the block's first ring stood in the place of all.
     wgpu(
         "shaders/src/scan.wgsl",
         "block_turns",
         "ring_sample(yarn, block, lane);",
         "ring_sample(yarn, block, 0u);",
     ),
-    // A yarn's rolls start one block late.
+    // Each block gets the roll at which the next block starts.
     wgpu(
         "shaders/src/scan.wgsl",
         "yarn_rolls",
@@ -227,7 +227,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         "let own = pattern_pairs[store] + block.first_vertex;",
         "let own = pattern_pairs[store];",
     ),
-    // A cap's triangles all share one corner.
+    // Every cap gets the triangles at the start of a yarn with the first section.
     wgpu("shaders/src/caps.wgsl", "caps", "cap_pattern[cap.first_corner + k];", "cap_pattern[k];"),
     // A part that starts inside an interval starts at its control point.
     wgpu(

@@ -19,7 +19,7 @@ enum Suite {
     Passed,
     /// This number of trials failed.
     Failed(usize),
-    /// The suite ended before its trials. The text is its output.
+    /// The suite did not compile, ran no trial, or failed although no trial did. The text says why.
     Broken(String),
 }
 

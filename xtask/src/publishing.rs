@@ -30,7 +30,7 @@ pub(crate) fn check(steps: &mut Steps) {
     }
 }
 
-/// A sentence on what a package lacks to be published; none if it lacks nothing.
+/// The first reason why a package can't be published as it is; none if it can.
 fn lack(package: &Package, published: &BTreeSet<&str>, files: &BTreeSet<&str>) -> Option<String> {
     if let Some(missing) = BESIDE.iter().find(|name| !files.contains(*name)) {
         return Some(format!("has no {missing}"));

@@ -32,8 +32,8 @@ const LIBRARY: [&str; 2] = if cfg!(windows) {
     ["lib_texere.so", "_texere.abi3.so"]
 };
 
-/// Makes the wheel, installs it in an environment of its own, and runs its tests against the
-/// `texere` program of the tests.
+/// Makes the wheel, installs it in an environment of its own, and runs the package's tests and the
+/// notebooks. The tests compare meshes with those of the `texere` program of [`Build::Tested`].
 pub(crate) fn test(steps: &mut Steps, build: Build) {
     let (system, folder) = if cfg!(windows) { ("python", "Scripts") } else { ("python3", "bin") };
     let [python, maturin] = ["python", "maturin"].map(|name| format!("{ENVIRONMENT}/{folder}/{name}"));
@@ -80,7 +80,8 @@ fn pack(steps: &mut Steps, python: &str, maturin: &str) {
     steps.run("the Python package", &[python, "-m", "wheel", "pack", UNPACKED, "--dest-dir", WHEELS], &[]);
 }
 
-/// Lays the library and the sources in Python in the folder `package`, and makes that of the wheel.
+/// Copies the library and the Python sources to the folder `package`. Also makes the folder for
+/// wheels.
 fn lay(package: &Path) -> io::Result<()> {
     fs::create_dir_all(package)?;
     fs::create_dir_all(root().join(WHEELS))?;

@@ -59,7 +59,7 @@ impl Steps {
             scope.spawn(|| other(&mut beside));
             one(self);
         });
-        // What can't be printed has been run all the same.
+        // The steps have run even if their output can't be printed, so the error is ignored.
         let _ = io::stdout().write_all(&beside.kept.unwrap_or_default());
         self.done.append(&mut beside.done);
         self.failed = self.failed.take().or(beside.failed);

@@ -15,7 +15,8 @@ pub(crate) struct Package {
     pub(crate) name: String,
     /// Whether the package is published on crates.io.
     pub(crate) published: bool,
-    /// The root files of the package's library and programs.
+    /// The root files of the package's library and programs. A library for other languages alone
+    /// (`cdylib`) is left out.
     pub(crate) roots: Vec<PathBuf>,
     /// The names of the package's integration tests. Those that need a feature are left out, as
     /// `cargo test --all-targets` leaves them out.

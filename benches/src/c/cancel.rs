@@ -1,12 +1,12 @@
-//! Measures how soon calls of the C library end after they are asked to end. It makes each call
-//! many times, and asks it to end at a random moment of the time that it takes.
+//! Measures how soon calls of the C library end after they are asked to end. The program makes each
+//! call many times, and asks the call to end at a random moment of the time that the call takes.
 //!
 //! `cargo run --release -p texere-bench --features capi,gpu --bin c-cancel -- [ROUNDS [CALL]]`
 //!
-//! Each line of the output is about one call. It has the time that the call takes if it is not
-//! asked to end. The median and the longest of the times from `texere_run_cancel` to the call's
-//! return follow. Then comes how long the call had run when it was asked in the round of the
-//! longest time, and last how many rounds were measured.
+//! Each line of the output is about one call. The line begins with the time that the call takes if
+//! nothing asks it to end. The median and the longest of the times from `texere_run_cancel` to the
+//! call's return follow. Then comes how long the call had run before it was asked to end, in the
+//! round with the longest time. Last comes the number of rounds that were measured.
 
 mod calls;
 

@@ -33,7 +33,7 @@ pub(super) struct Run {
 pub(super) struct Column {
     pub(super) info: DeviceInfo,
     /// Making a context of the device, by the host's clock. The first context of a driver also
-    /// loads the driver. None for a CPU.
+    /// loads the driver. None for the devices `cpu` and `cpu-serial`.
     pub(super) context: Option<Duration>,
     /// Compiling the kernels, by the host's clock: the time of opening the device less that of a
     /// context.

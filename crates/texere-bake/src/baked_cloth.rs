@@ -46,8 +46,8 @@ impl BakedCloth {
     /// MaterialX.
     ///
     /// **Errors**: [`BakeError::Write`] if there is something at `path` already that is not an
-    /// empty folder, or if the file system refuses, and [`BakeError::Image`] if a file in the
-    /// folder can't be written.
+    /// empty folder, if the preview can't be written, or if the file system refuses, and
+    /// [`BakeError::Image`] if a map or a document can't be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<[String; 3], BakeError> {
         let name = file_name(&self.name);
         let documents = ["u3m", "u3ma", "mtlx"].map(|ending| format!("{name}.{ending}"));

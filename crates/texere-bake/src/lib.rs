@@ -2,10 +2,10 @@
 //!
 //! [`bake()`] lets one repeat of a design come to rest amid copies of itself. It then looks
 //! straight at the face and at the back of the repeat, and keeps what it sees in [`Maps`]: colour,
-//! share of yarn, normal, height, roughness, ambient occlusion, and which yarn lies where. The maps
-//! have the cloth's true size, and they tile: what leaves them at one edge comes in at the opposite
-//! one. [`BakedCloth::write`] puts the maps into a folder, with the documents that other programs
-//! open.
+//! share of yarn, normal, height, roughness, ambient occlusion, which yarn lies where, and the
+//! place on that yarn. The maps have the cloth's true size, and they tile: what leaves them at one
+//! edge comes in at the opposite one. [`BakedCloth::write`] puts the maps into a folder, with the
+//! documents that other programs open.
 //!
 //! | file | holds |
 //! |---|---|

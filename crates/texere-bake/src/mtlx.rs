@@ -7,8 +7,8 @@ use crate::Maps;
 /// The document of a material whose face has `maps`. `heights` are the two heights that the PNG of
 /// displacement shows as black and as white, mm. Texture coordinates are those of a plane in its
 /// true size: one unit is one metre of cloth. The map of occlusion is not connected to the surface,
-/// because renderers work out for themselves what takes light away. It is there for programs that
-/// do not.
+/// because renderers work out for themselves what takes light away. The document names the map for
+/// programs that do not work this out.
 pub(crate) fn document(name: &str, maps: &Maps, heights: [f32; 2]) -> String {
     let [width, height] = maps.size_mm.map(|mm| mm / 1000.0);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");

@@ -156,8 +156,8 @@ mod tests {
                 (0..side * side).map(|at| (slope * (at % side) as f64 * 0.01) as f32).collect();
             let normal = vec![[lean.sin() as f32, 0.0, lean.cos() as f32]; height.len()];
             let light = occlusion(&height, &normal, [side as u32; 2], [0.01; 2], 0.4, false);
-            // The form factor of a leaning plane for the sky above it. The horizon hides a part of
-            // that sky.
+            // The form factor of a leaning plane for the sky. The plane faces some directions below
+            // the level horizon, and no light comes from these.
             let exact = (1.0 + lean.cos()) / 2.0;
             let middle = f64::from(light[(side * side / 2) as usize]);
             assert!((middle - exact).abs() < 0.02, "{degrees}: {middle} for {exact}");

@@ -19,7 +19,7 @@ const RINGS_COUNTED: usize = 8_192;
 /// The sums over the samples of a texel that show yarn.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Texel {
-    /// The number of these samples.
+    /// The number of samples that show yarn.
     pub(crate) seen: u32,
     color: Vec3,
     normal: Vec3,
@@ -50,8 +50,8 @@ impl Texel {
         self.height * self.share()
     }
 
-    /// The width α of the texel's highlight. α² is the mean α² of the yarns that it shows, and
-    /// twice the variance of its normals.
+    /// The width α of the texel's highlight. α² is the sum of the mean α² of the yarns that the
+    /// texel shows, and of twice the variance of the texel's normals.
     pub(crate) fn width(&self) -> f32 {
         let length = self.normal().length().clamp(1e-3, 1.0);
         (self.width * self.share() + 2.0 * (1.0 - length) / length).sqrt()

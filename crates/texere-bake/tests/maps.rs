@@ -33,7 +33,7 @@ fn maps_have_the_size_and_the_yarns_of_the_repeat() {
     seen.dedup();
     let expected: Vec<_> = (1..=6).map(Origin::End).chain((1..=3).map(Origin::Pick)).collect();
     assert_eq!(seen, expected);
-    // Each texel's colour is that of its yarn, where one yarn fills the texel.
+    // The red of a texel that is full of yarn lies between the reds of the two colours.
     for (at, &yarn) in front.yarn.iter().enumerate() {
         if front.alpha[at] == 1.0 && yarn != Maps::NO_YARN {
             let red = front.color[at][0];

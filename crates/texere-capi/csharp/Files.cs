@@ -6,7 +6,7 @@ using System.Runtime.ExceptionServices;
 
 namespace Texere
 {
-    /// <summary>The forms of a woven design in a file.</summary>
+    /// <summary>The forms of a design in a file.</summary>
     public enum DesignFormat : uint
     {
         /// <summary>texere's own design file, .toml.</summary>
@@ -26,7 +26,7 @@ namespace Texere
         Ply = 1,
         /// <summary>Binary STL, .stl: triangles without colours.</summary>
         Stl = 2,
-        /// <summary>OBJ, .obj. A callback gets the bytes of that file alone, which names materials.mtl.</summary>
+        /// <summary>OBJ, .obj. A stream gets this file alone, which names materials.mtl.</summary>
         Obj = 3,
         /// <summary>glTF 2.0 with vertices of 12 bytes; texere.h says how exact they are.</summary>
         PackedGlb = 4,
@@ -49,7 +49,10 @@ namespace Texere
         Bcc = 1,
         /// <summary>The text form of Universal Scene Description, .usda: curves with diameters and colours.</summary>
         Usda = 2,
-        /// <summary>That form with straight lines between control points, for simulators.</summary>
+        /// <summary>
+        /// The text form of Universal Scene Description, .usda, with straight lines between control
+        /// points, for simulators.
+        /// </summary>
         LinearUsda = 3,
     }
 
@@ -59,8 +62,9 @@ namespace Texere
         internal delegate int Takes(void* user, ulong offset, byte* data, UIntPtr size);
 
         /// <summary>
-        /// Makes a call whose bytes go to a stream, from its position on. What the stream throws ends the call and is
-        /// thrown again here. A mesh file comes back to its beginning at the end, so its stream has to seek.
+        /// Makes a call whose bytes go to a stream, from the stream's position on. An exception of
+        /// the stream ends the call and is thrown again here. At the end of a mesh file, earlier
+        /// bytes may come again with other values. The stream has to seek then.
         /// </summary>
         internal static void Write(Stream stream, Func<Takes, texere_status> call, params object[] used)
         {

@@ -21,7 +21,10 @@ namespace Texere
         IO = 5,
         /// <summary>The call ended early, because <see cref="Run.Cancel"/> was called.</summary>
         Cancelled = 6,
-        /// <summary>The library was built without what the call needs, or the device does not support it.</summary>
+        /// <summary>
+        /// The library was built without what the call needs, or the device or the file format does
+        /// not support it.
+        /// </summary>
         Unsupported = 7,
         /// <summary>The library itself is at fault. The fault was caught, and the library can still be used.</summary>
         Panic = 8,

@@ -121,7 +121,10 @@ namespace Texere
             }
         }
 
-        /// <summary>Sets the lifts where ends from <paramref name="firstEnd"/> on cross picks from a first one on.</summary>
+        /// <summary>
+        /// Sets many lifts at once: where <paramref name="ends"/> ends, from
+        /// <paramref name="firstEnd"/> on, cross picks from <paramref name="firstPick"/> on.
+        /// </summary>
         /// <param name="firstEnd">The first end, counted from 0.</param>
         /// <param name="ends">How many ends.</param>
         /// <param name="firstPick">The first pick, counted from 0.</param>
@@ -205,7 +208,10 @@ namespace Texere
         /// <summary>Sets the tension of the splines of all yarns, from 0 to below 1.</summary>
         public void SetTension(float tension) => Call.Check(Native.texere_live_set_tension(Own, tension), this);
 
-        /// <summary>Replaces the structure by that of a design. The yarns lie as it places them.</summary>
+        /// <summary>
+        /// Replaces the structure by that of a design. The yarns lie as the new structure places
+        /// them.
+        /// </summary>
         public void SetStructure(Design design) =>
             Call.Check(Native.texere_live_set_structure(Own, design.Own), this, design);
 
@@ -215,7 +221,10 @@ namespace Texere
         /// <summary>Replaces all yarns by those of the same cloth at rest, and keeps the weave.</summary>
         public void SetRest(Yarns yarns) => Call.Check(Native.texere_live_set_rest(Own, yarns.Own), this, yarns);
 
-        /// <summary>Makes attributes as well as the mesh from the next update on, which makes the whole mesh again.</summary>
+        /// <summary>
+        /// Makes attributes as well as the mesh, from the next update on. That update makes the
+        /// whole mesh again.
+        /// </summary>
         public void KeepAttributes() => Call.Check(Native.texere_live_keep_attributes(Own), this);
 
         /// <summary>Reads the attributes of all vertices.</summary>
@@ -274,7 +283,10 @@ namespace Texere
             }
         }
 
-        /// <summary>Reads a change into spans that have as many vertices and indices as it.</summary>
+        /// <summary>
+        /// Reads a change. The spans have to be as long as the change's numbers of vertices and
+        /// indices.
+        /// </summary>
         public void Read(Change change, Span<Vertex> vertices, Span<uint> indices)
         {
             fixed (Vertex* firstVertex = vertices)

@@ -98,7 +98,10 @@ namespace Texere
     /// <summary>How sections stand along the yarn.</summary>
     public enum Frame : uint
     {
-        /// <summary>Upright, with their side at right angles to z. Steep yarns have RotationMinimizing instead.</summary>
+        /// <summary>
+        /// Upright, with their width at right angles to z. A round yarn that runs too steeply for
+        /// that has RotationMinimizing instead. A flattened yarn that runs so steeply leans.
+        /// </summary>
         Upright = 0,
         /// <summary>Carried along the yarn without turning about it.</summary>
         RotationMinimizing = 1,
@@ -118,9 +121,9 @@ namespace Texere
     /// <summary>The settings of a mesh. <see cref="Yarns.Settings"/> gives those that suit yarns.</summary>
     public struct Settings
     {
-        /// <summary>How many points are inserted between two control points, 0 or more.</summary>
+        /// <summary>How many points are inserted between two control points, 0 to 1023.</summary>
         public uint Subdivisions;
-        /// <summary>How many sides the tubes have, 3 or more.</summary>
+        /// <summary>How many sides the tubes have, 3 to 256.</summary>
         public uint Sides;
         /// <summary>How sections stand along the yarn.</summary>
         public Frame Frame;
@@ -215,8 +218,14 @@ namespace Texere
 
         /// <summary>Reads curves that another program wrote: .bcc, .obj, .usda or .tg3.</summary>
         /// <param name="path">The file.</param>
-        /// <param name="unitMm">The length of the file's unit, mm; 0 if the file says it.</param>
-        /// <param name="diameterMm">The diameter of all yarns, mm; 0 if the file says widths.</param>
+        /// <param name="unitMm">
+        /// The length of the file's unit, mm. With 0 it is what a .usda or .tg3 file says, and 1 mm
+        /// in a .bcc or .obj file.
+        /// </param>
+        /// <param name="diameterMm">
+        /// The diameter of all yarns, mm. With 0 a .usda or .tg3 file says the widths. A .bcc or
+        /// .obj file needs a diameter.
+        /// </param>
         public static Yarns ReadCurves(string path, float unitMm = 0, float diameterMm = 0)
         {
             texere_yarns* made;

@@ -102,9 +102,12 @@ namespace Texere
         /// <summary>Eye: the angle from the picture's lower to its upper edge, radians.</summary>
         public float FieldOfView { get => native.field_of_view; set => native.field_of_view = value; }
 
-        /// <summary>Close-up and cuts: the point of the cloth that they go through, mm, along the weft or the courses.</summary>
+        /// <summary>
+        /// Close-up and cuts: the point of the cloth round which the close-up lies, or through
+        /// which the cut goes, mm, along the weft or the courses.
+        /// </summary>
         public float AtX { get; set; }
-        /// <summary>The point along the warp or the wales.</summary>
+        /// <summary>Close-up and cuts: the point, mm, along the warp or the wales.</summary>
         public float AtY { get; set; }
         /// <summary>Eye and parallel: the eye.</summary>
         public Vector Eye { get; set; }

@@ -89,7 +89,10 @@ namespace Texere
             }
         }
 
-        /// <summary>Takes a piece of a mesh: vertices, or indices. The spans are valid until it returns.</summary>
+        /// <summary>
+        /// Takes a piece of a mesh: vertices, or indices. The spans are valid until the delegate
+        /// returns.
+        /// </summary>
         /// <param name="vertices">Vertices; empty in a piece of indices.</param>
         /// <param name="indices">Indices; empty in a piece of vertices.</param>
         /// <param name="first">The number of the first vertex or index of the piece in the whole mesh.</param>
@@ -122,7 +125,10 @@ namespace Texere
             Call.Check(status, this, run, each);
         }
 
-        /// <summary>Makes the mesh and writes it to a file, .glb or .ply, in bounded memory.</summary>
+        /// <summary>
+        /// Makes the mesh and writes it to a file, .glb, .ply, .stl, .obj or .usda, in bounded
+        /// memory.
+        /// </summary>
         public void Write(string path, Run run = null) => Files.Write(
             path, (text, length) => Native.texere_plan_write(Own, Run.Of(run), text, length), this, run);
 

@@ -24,7 +24,10 @@ namespace Texere
 
         texere_renderer* Own => (texere_renderer*)Pointer;
 
-        /// <summary>Shows yarns from now on in place of those before. Null settings stand for those of a picture.</summary>
+        /// <summary>
+        /// Shows yarns from now on in place of the yarns before. Null settings stand for settings
+        /// that suit a picture.
+        /// </summary>
         public void Show(Yarns yarns, Settings? settings = null, Run run = null)
         {
             var given = settings.GetValueOrDefault().Native;
@@ -33,7 +36,7 @@ namespace Texere
             Call.Check(status, this, yarns, run);
         }
 
-        /// <summary>The corners of the box round the yarns that it shows.</summary>
+        /// <summary>The corners of the box round the yarns that the renderer shows.</summary>
         public (Vector Low, Vector High) Extent
         {
             get

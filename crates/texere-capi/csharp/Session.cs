@@ -62,11 +62,15 @@ namespace Texere
     }
 
     /// <summary>
-    /// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. One thread at a time may use it.
+    /// A session, which makes the mesh of a plan on the plan's device, chunk by chunk, and leaves
+    /// the chunks there. One thread at a time may use a session.
     /// </summary>
     public sealed unsafe class Session : Handle
     {
-        /// <summary>Sends the yarns of a plan to its device, which lends its buffers: opencl, or wgpu with Vulkan.</summary>
+        /// <summary>
+        /// Sends the yarns of a plan to the plan's device. It has to be a device that lends its
+        /// buffers: one of opencl, or of wgpu with Vulkan.
+        /// </summary>
         public Session(Plan plan, Run run = null) : base(Made(plan, run)) { }
 
         static texere_session* Made(Plan plan, Run run)
@@ -101,7 +105,10 @@ namespace Texere
         /// <summary>Waits until the device has done all that was asked of it.</summary>
         public void Wait() => Call.Check(Native.texere_session_wait(Own), this);
 
-        /// <summary>Reads a chunk that was made into spans that have as many vertices and indices as it.</summary>
+        /// <summary>
+        /// Reads a chunk that <see cref="Mesh"/> has made. The spans have to be as long as the
+        /// chunk's numbers of vertices and indices.
+        /// </summary>
         public void Read(ulong chunk, Span<Vertex> vertices, Span<uint> indices)
         {
             fixed (Vertex* firstVertex = vertices)

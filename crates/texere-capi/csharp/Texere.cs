@@ -24,7 +24,10 @@ namespace Texere
         /// <summary>The handle of a run, or null if there is none.</summary>
         internal static texere_run* Of(Run run) => run == null ? null : run.Own;
 
-        /// <summary>Ends the call that has this run, and all later ones: <see cref="Status.Cancelled"/>.</summary>
+        /// <summary>
+        /// Asks the call that was given this run, and every later one, to end with
+        /// <see cref="Status.Cancelled"/>.
+        /// </summary>
         public void Cancel() => Call.Check(Native.texere_run_cancel(Own), this);
 
         /// <summary>The share of the call that is done, from 0 to 1.</summary>
@@ -79,7 +82,7 @@ namespace Texere
         public string Name => Copied(Info.name);
         /// <summary>The maker's name of the device.</summary>
         public override string ToString() => Copied(Info.device);
-        /// <summary>Its driver, with the version.</summary>
+        /// <summary>The driver of the device, with the version.</summary>
         public string Driver => Copied(Info.driver);
         /// <summary>Whether yarns of all structures can come to rest on the device.</summary>
         public bool Settles => Info.settles != 0;
@@ -94,12 +97,15 @@ namespace Texere
         }
     }
 
-    /// <summary>A design that was read: a WIF draft, a design file, or a program of a knitting machine.</summary>
+    /// <summary>
+    /// A design that was read: a draft of a weaving program, a design file, or a program of a
+    /// knitting machine.
+    /// </summary>
     public sealed unsafe class Design : Handle
     {
         Design(texere_design* made) : base(made) { }
 
-        /// <summary>Reads a design from a file: .wif, .toml or .k.</summary>
+        /// <summary>Reads a design from a file: .wif, .dtx, .wpo, .toml or .k.</summary>
         public static Design Read(string path)
         {
             texere_design* made;
@@ -211,7 +217,10 @@ namespace Texere
         /// <summary>The outcome in words.</summary>
         public string Report => Copied(Told.words);
 
-        /// <summary>What a designer should know of the cloth, such as wishes of its design that it did not reach.</summary>
+        /// <summary>
+        /// What a designer should know of the cloth, such as what the design asks for and the cloth
+        /// did not reach.
+        /// </summary>
         public IReadOnlyList<string> Warnings
         {
             get

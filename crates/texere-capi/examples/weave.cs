@@ -11,7 +11,7 @@ static class Weave
         var vertices = new Vertex[plan.Vertices];
         var indices = new uint[plan.Indices];
         plan.Mesh(vertices, indices);
-        // Indices count from the first vertex of their draw.
+        // Indices count from the base vertex of their draw.
         foreach (var draw in plan.Draws)
         {
             var own = indices.AsSpan((int)draw.FirstIndex, (int)draw.IndexCount);

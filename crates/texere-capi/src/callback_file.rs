@@ -7,10 +7,10 @@ use crate::argument::given;
 use crate::callback::Answer;
 use crate::failure::Failure;
 
-/// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
+/// Takes a piece of a file: `size` bytes, which begin at byte `offset` of the file. The pieces come
 /// in order, except that at the end earlier bytes may come again with values that are only known
-/// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
-/// is valid until the callback returns.
+/// then. The callback returns 0 to go on; any other value ends the call that was given this
+/// callback. `data` is valid until the callback returns.
 pub type texere_write_callback =
     Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, data: *const u8, size: usize) -> i32>;
 

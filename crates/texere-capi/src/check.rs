@@ -109,8 +109,9 @@ pub struct texere_diagnosis {
     pub contacts: u64,
     /// How many contacts have a clearance below 1 by more than 0.001.
     pub below_one: u64,
-    /// The radius of the tightest bend over how far the yarn's section reaches into it, which is
-    /// the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
+    /// The radius of the tightest bend over how far the yarn's section reaches into the bend. A
+    /// round yarn reaches as far as its radius. Below 1 the tube folds. Infinite if all yarns are
+    /// straight.
     pub bend: f64,
     /// The least width of a tube of the mesh half way between two rings, as a share of the width on
     /// the rings.

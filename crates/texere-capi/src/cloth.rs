@@ -24,8 +24,8 @@ pub struct texere_cloth;
 #[derive(Debug)]
 pub(crate) struct Cloth {
     pub(crate) cloth: texere::Cloth,
-    /// The name of the device that `texere_cloth_rest` was given; empty for a cloth of
-    /// `texere_cloth_placed`.
+    /// The name of the device on which the yarns came to rest: the device that `texere_cloth_rest`
+    /// was given, or the CPU if that stood in for it. Empty for a cloth of `texere_cloth_placed`.
     pub(crate) device: String,
     /// The measures. They are taken when they are first asked for.
     pub(crate) measures: OnceLock<Measures>,

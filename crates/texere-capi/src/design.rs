@@ -100,10 +100,10 @@ pub unsafe extern "C" fn texere_design_read_memory(
 
 /// Writes a design to a file that `texere_design_read` reads. The ending of `path` says which:
 /// `.toml` for texere's own design file, which holds woven cloth, weft knits that were read from a
-/// chart or a picture, and warp knits; `.wif` for a WIF 1.1 draft, which holds woven cloth, and
-/// leaves out what drafts don't have; `.k` or `.knitout` for a knitout file, which holds weft knits
-/// that were read from one. An existing file of that name is replaced only once the new one is
-/// complete.
+/// chart or a picture, and warp knits without a Jacquard bar; `.wif` for a WIF 1.1 draft, which
+/// holds woven cloth, and leaves out what drafts don't have; `.k` or `.knitout` for a knitout file,
+/// which holds weft knits that were read from one. An existing file of that name is replaced only
+/// once the new one is complete.
 ///
 /// Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
 /// file can't hold, and with TEXERE_IO if the file can't be written.

@@ -35,13 +35,13 @@ impl Handle for texere_device {
 pub struct texere_device_info {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 if yarns of all structures can come to rest on it, else 0.
+    /// 1 if yarns of all structures can come to rest on the device, else 0.
     pub settles: u32,
     /// The name that opens the device, such as "cpu" or "opencl:0".
     pub name: *const c_char,
     /// The maker's name of the device.
     pub device: *const c_char,
-    /// Its driver, with the version.
+    /// The driver of the device, with the version.
     pub driver: *const c_char,
     /// How much memory the device has, bytes; 0 if it is not known.
     pub memory_bytes: u64,
@@ -53,7 +53,7 @@ grows_after!(texere_device_info, memory_bytes);
 /// "wgpu" and so on. A `name_length` of 0 is "auto".
 ///
 /// Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
-/// library was built without the API that it needs.
+/// library was built without the API that the device needs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_device_open(
     name: *const c_char,

@@ -182,7 +182,7 @@ pub unsafe extern "C" fn texere_live_yarn(
 }
 
 /// Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-/// again. The bending stiffness that a design gives its yarn stays.
+/// again. The bending stiffness that the material has from a design stays.
 ///
 /// Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
 /// have.

@@ -55,6 +55,7 @@ pub struct texere_finish {
     /// A constant whose name begins with TEXERE_STRETCH.
     pub stretch: u32,
     /// For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+    /// docs/SETTLING.md describes the weighted form and the block form.
     pub passes: u32,
     /// The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
     pub stretch_by: f64,

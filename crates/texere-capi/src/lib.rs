@@ -1,8 +1,10 @@
 //! texere for C, and for every language that calls C.
 //!
 //! ```text
-//! texere_device_open ─┐                       ┌> texere_plan_new ─> texere_plan_mesh
-//! texere_design_read ─┴> texere_cloth_rest ───┴> texere_live_of_cloth ─> texere_live_update
+//! texere_device_open ─┐                     ┌> texere_live_of_cloth ─> texere_live_update
+//! texere_design_read ─┴> texere_cloth_rest ─┴> texere_cloth_yarns ─┐
+//!                                             ┌────────────────────┘
+//!                                             └> texere_plan_new ─> texere_plan_mesh
 //! ```
 //!
 //! `include/texere.h` is generated from this crate by cbindgen, and a test fails if it is out of

@@ -76,9 +76,9 @@ pub struct texere_change {
 pub struct texere_update {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// 1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
-    /// outgrew its room. Sizes and draws may then have changed, and vertices may have other
-    /// numbers. Else 0.
+    /// 1 if a new mesh was made, else 0. A new mesh is made in the first update, and for example
+    /// after an edit by which a yarn outgrew its room. Sizes and draws may then have changed, and
+    /// vertices may have other numbers.
     pub anew: u32,
     /// The ranges that were made again. They are valid until the next update of this live cloth, or
     /// until it is freed.
@@ -239,8 +239,8 @@ pub unsafe extern "C" fn texere_live_counts(
 }
 
 /// Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
-/// there are. Indices between two draws are room, and are not drawn. The draws are valid until the
-/// next update, or until the live cloth is freed.
+/// there are. Indices between two draws belong to the room into which yarns can grow, and are not
+/// drawn. The draws are valid until the next update, or until the live cloth is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_live_draws(
     live: *const texere_live,

@@ -87,7 +87,7 @@ pub unsafe extern "C" fn texere_live_keep_attributes(live: *const texere_live) -
 
 /// Reads the attributes of a live cloth's vertices into the caller's memory: a `texere_attribute`
 /// for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
-/// be null. The contents of the room between yarns are undefined.
+/// be null. The attributes in the room between yarns, into which yarns can grow, are undefined.
 ///
 /// Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
 /// `texere_live_update` has not been called since then and since the last edit, and for a view that

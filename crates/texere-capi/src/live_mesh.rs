@@ -87,9 +87,9 @@ impl Editing {
     }
 }
 
-/// Copies values from `from`, whose first value has the number `first`, to `into`, whose first
-/// value is to be the one with the number `wanted`. Copies the numbers that both have, and returns
-/// how many they are.
+/// Copies from `from` to `into` the values whose numbers lie in both, and returns how many they
+/// are. The first value of `from` has the number `first`. The first value of `into` is to be that
+/// with the number `wanted`.
 fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usize {
     let start = first.max(wanted);
     let end = (first + from.len() as u64).min(wanted + into.len() as u64);
@@ -101,8 +101,8 @@ fn overlap<T: Copy>(first: u64, from: &[T], wanted: u64, into: &mut [T]) -> usiz
     count
 }
 
-/// Makes sure that a range lies within the `all` vertices or indices of a mesh. `name` says which
-/// of them they are.
+/// Makes sure that a range lies within a mesh that has `all` vertices or indices. `name` is
+/// "vertices" or "indices".
 pub(crate) fn within(name: &str, first: u64, count: u64, all: u64) -> Result<(), Failure> {
     if first.checked_add(count).is_some_and(|end| end <= all) {
         return Ok(());
@@ -111,7 +111,7 @@ pub(crate) fn within(name: &str, first: u64, count: u64, all: u64) -> Result<(),
 }
 
 /// Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
-/// of the room between yarns are undefined.
+/// of the room between yarns, into which yarns can grow, are undefined.
 ///
 /// Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
 /// says, and if `texere_live_update` has to be called first, after an edit for example. Fails with

@@ -9,8 +9,8 @@ use crate::error::guard;
 use crate::failure::Failure;
 use crate::status::texere_status;
 
-/// A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
-/// soft cotton; only design files state another one.
+/// A material of yarns. Its bending stiffness is that of soft cotton; only design files state
+/// another one. The stiffness counts for knits that come to rest by their energy.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_material {

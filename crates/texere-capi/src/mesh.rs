@@ -159,8 +159,8 @@ pub unsafe extern "C" fn texere_plan_mesh(
 /// `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
 /// between values stays as it is.
 ///
-/// It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
-/// with indices that lie side by side: the mesh is then not copied value by value.
+/// The call is fastest with each normal right behind its position, 24 bytes from vertex to vertex,
+/// and with indices that lie side by side: the mesh is then not copied value by value.
 ///
 /// Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
 /// and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are

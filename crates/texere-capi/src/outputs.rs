@@ -19,9 +19,10 @@ use crate::view::{Strided, texere_view};
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_packed_vertex {
-    /// The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
-    /// bits of each coordinate are kept. The two words are one number of 64 bits, the first word
-    /// its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
+    /// The position. Each coordinate is a whole number of steps of `quantum_mm` of
+    /// `texere_settings`, and the lowest 21 bits of that number are kept. The two words are one
+    /// number of 64 bits, the first word its lower half: x has bits 0 to 20, y bits 21 to 41, z
+    /// bits 42 to 62.
     pub position: [u32; 2],
     /// The unit normal, mapped to the octahedron and from there to a square: two coordinates from
     /// -1 to 1, in steps of 1/32767.
@@ -39,7 +40,7 @@ pub struct texere_attribute {
     pub angle: f32,
     /// The length of the yarn from its start to the vertex's ring, mm.
     pub along: f32,
-    /// The unit tangent of the yarn at that ring.
+    /// The unit tangent of the yarn at the vertex's ring.
     pub tangent: [f32; 3],
 }
 
@@ -63,7 +64,8 @@ pub struct texere_ring {
     /// Growth of the half height along the yarn, mm per mm.
     pub height_growth: f32,
     /// Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
-    /// 1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
+    /// 1/2^32 of a full turn. It is 0 where the height of the yarn stands upright, and another
+    /// number on, for example, a flattened yarn that runs steeply up or down.
     pub lean: u32,
 }
 

@@ -18,7 +18,8 @@ use crate::settings::{chosen, texere_settings};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
+/// A picker, which says what a ray would hit first of the mesh of yarns. The mesh itself is not
+/// made.
 #[derive(Debug)]
 pub struct texere_picker;
 
@@ -99,7 +100,8 @@ struct Place {
 }
 
 /// The share of an interval by which the mesh of a yarn may lie beside its spline. With the fewest
-/// rings, one between two control points, it lies 0.05 beside a spline that turns by 90 degrees.
+/// rings, none between two control points, the mesh lies 0.125 beside a spline that turns by 90
+/// degrees from one control point to the next, such as one through the corners of a square.
 const SAG: f64 = 0.25;
 
 impl Place {
@@ -116,9 +118,9 @@ impl Place {
         Ok(Self { yarn: yarn as usize, interval: interval as usize, t, position })
     }
 
-    /// The place on yarn `number` of `yarns`. Fails if there is none, and if that yarn's surface
-    /// does not pass through the hit. The hit is then one of other yarns, for example of live cloth
-    /// after an edit, and its numbers stand for another place here.
+    /// The place on yarn `number` of `yarns`. Fails if there is none, and if the hit lies too far
+    /// from the place to be on that yarn's surface. Such a hit is one of other yarns, for example
+    /// one of live cloth from before an edit, and its numbers stand for another place here.
     fn on(&self, yarns: &Yarns, number: usize) -> Result<YarnPlace, Failure> {
         let Self { yarn, interval, t, position } = *self;
         let at = YarnPlace::at(yarns, number, interval, t).ok_or_else(|| {
@@ -211,8 +213,8 @@ pub unsafe extern "C" fn texere_picker_pick(
 /// has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 ///
 /// Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
-/// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
-/// the length.
+/// for example because the hit is one of live cloth that was edited, and if `size` is neither 0 nor
+/// above the length.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn texere_cloth_place(
     cloth: *const texere_cloth,
@@ -250,8 +252,8 @@ pub unsafe extern "C" fn texere_live_pick(
 }
 
 /// Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
-/// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
-/// writes only which yarn it is.
+/// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, the
+/// text only names the yarn.
 ///
 /// Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
 /// where the hit is.

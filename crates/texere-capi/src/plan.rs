@@ -49,11 +49,11 @@ impl Handle for texere_plan {
 const CORE_BYTES: u64 = 16 << 20;
 
 /// The least and the largest limit on the bytes of a chunk's largest buffer. At the end of each
-/// chunk cores wait for the last one, the longer the more cores there are. On two cores a mesh in
-/// chunks of 8 MiB took 3 to 4 % longer than in the 64 MiB of Rust's pipeline, in chunks of 16 MiB
-/// 2 % longer, and in chunks of 32 MiB as long. On sixteen cores it took 10 % longer in chunks of
-/// 16 MiB. No test breaks with other values: `c-overhead` and `c-cancel` of texere-bench show the
-/// effect.
+/// chunk the cores wait for the last of them, the longer the more cores there are. Times were
+/// compared with those of chunks of 64 MiB, the usual ones in Rust. On two cores a mesh took 3 to
+/// 4 % longer in chunks of 8 MiB, 2 % longer in chunks of 16 MiB, and as long in chunks of 32 MiB.
+/// On sixteen cores a mesh took 10 % longer in chunks of 16 MiB. No test breaks with other values:
+/// `c-overhead` and `c-cancel` of texere-bench show the effect.
 const CHUNK_BYTES: [u64; 2] = [32 << 20, 64 << 20];
 
 /// The limits that chunks of plans are cut to.

@@ -154,7 +154,7 @@ pub unsafe extern "C" fn texere_renderer_write(
 
 /// Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
 /// `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
-/// `user` as its first argument, when the picture is made.
+/// `user` as its first argument, after the picture has been made.
 ///
 /// Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
 /// number other than 0. The bytes that came before then are not a complete file.

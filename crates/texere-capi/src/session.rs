@@ -14,9 +14,9 @@ use crate::run::texere_run;
 use crate::sized::{check_sized, write_sized};
 use crate::status::texere_status;
 
-/// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
-/// two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
-/// older one.
+/// A session, which makes the mesh of a plan on the plan's device, chunk by chunk, and leaves the
+/// chunks there. The device holds two chunks at a time: a third one that `texere_session_mesh`
+/// makes takes the buffers of the older one.
 ///
 /// One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
 /// another thread is using it.

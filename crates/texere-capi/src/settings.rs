@@ -11,8 +11,9 @@ use crate::sized::{check_sized, grows_after, sized, write_sized};
 use crate::status::texere_status;
 use crate::yarns::texere_yarns;
 
-/// Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
-/// anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
+/// Sections stand upright: their width lies at right angles to z. A round yarn that runs too
+/// steeply for that at any place has TEXERE_FRAME_ROTATION_MINIMIZING instead, along all its
+/// length. A flattened yarn that runs so steeply leans instead: see `lean` of `texere_ring`.
 pub const TEXERE_FRAME_UPRIGHT: u32 = 0;
 /// Sections are carried along the yarn without turning about it.
 pub const TEXERE_FRAME_ROTATION_MINIMIZING: u32 = 1;
@@ -30,9 +31,9 @@ pub const TEXERE_TOPOLOGY_NONE: u32 = 2;
 pub struct texere_settings {
     /// Size of this struct, bytes. The caller sets it.
     pub struct_size: u32,
-    /// How many points are inserted between two control points, 0 or more.
+    /// How many points are inserted between two control points, 0 to 1023.
     pub subdivisions: u32,
-    /// How many sides the tubes have, 3 or more.
+    /// How many sides the tubes have, 3 to 256.
     pub sides: u32,
     /// A constant whose name begins with TEXERE_FRAME.
     pub frame: u32,

@@ -43,8 +43,8 @@ pub struct texere_draft {
 grows_after!(texere_draft, treadling);
 
 impl texere_lists {
-    /// `count` lists of numbers from 0 to `limit`, each without 0 and without repetitions. `name`
-    /// is the member's.
+    /// `count` lists of numbers. The caller's numbers are 0 to `limit`; the result has no 0, and no
+    /// list has a number twice. `name` is the name of the struct member in error messages.
     ///
     /// # Safety
     ///

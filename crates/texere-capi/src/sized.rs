@@ -15,14 +15,14 @@ use crate::failure::Failure;
 ///
 /// # Safety
 ///
-/// It is `repr(C)`, begins with the size, and holds only numbers and raw pointers, so that any
-/// bytes are a value of it.
+/// The struct is `repr(C)`, begins with its size, and holds only numbers and raw pointers, so that
+/// any bytes are a value of the struct.
 pub(crate) unsafe trait Growing: Copy {
     /// The struct's size in its first release, bytes.
     const FIRST: usize;
 }
 
-/// The bytes of the member that `_of` gives.
+/// The size of the member that `_of` gives, bytes.
 pub(crate) const fn size_of_member<T, M>(_of: fn(&T) -> &M) -> usize {
     size_of::<M>()
 }
@@ -37,8 +37,8 @@ macro_rules! grows_after {
                 + $crate::sized::size_of_member(|value: &$kind| &value.$last);
         }
 
-        // A member that is added where there was padding would be read from a program that has
-        // never set it.
+        // There is no padding behind `$last`. An earlier program does not set padding, and a member
+        // that is added there later would be read from it.
         const _: () = assert!(
             std::mem::offset_of!($kind, struct_size) == 0
                 && <$kind as $crate::sized::Growing>::FIRST % align_of::<$kind>() == 0
@@ -52,7 +52,7 @@ pub(crate) use grows_after;
 /// refused.
 const MOST: usize = 4096;
 
-/// The bytes that a struct of the caller's says that it has.
+/// How many bytes a struct of the caller's says that it has.
 ///
 /// # Safety
 ///

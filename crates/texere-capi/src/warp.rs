@@ -38,7 +38,7 @@ pub const TEXERE_NO_YARN: u32 = 4294967295;
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct texere_bar {
-    /// Its chain: a lap for each course, from the first course knitted on.
+    /// Its chain: a lap for each course, beginning with the course that is knitted first.
     pub laps: *const texere_lap,
     /// How many laps, 1 to 4096. The first lap follows the last one again.
     pub lap_count: u64,

@@ -85,7 +85,8 @@ pub struct texere_weft_knit {
     /// The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
     /// counted from 0. After the last one the first one follows again. Null with a `turn_count` of
     /// 0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
-    /// a multiple of `turn_count`, the chart is repeated upwards until it is.
+    /// a multiple of `turn_count`, the chart is repeated upwards until the number of its courses is
+    /// such a multiple.
     pub turn: *const u32,
     /// How many numbers `turn` has.
     pub turn_count: u64,
@@ -102,11 +103,11 @@ pub struct texere_weft_knit {
     pub loop_length_mm: f64,
     /// The materials and sections that the yarns refer to.
     pub looks: texere_looks,
-    /// The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
-    /// `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
-    /// each row from left to right. A row becomes one course for each of its yarns, in the order of
-    /// their numbers. The front needles knit the course's yarn where the picture has that yarn. The
-    /// yarn floats past the other front needles.
+    /// A Jacquard picture: for each cell the number of its yarn in `yarns`, counted from 0. There
+    /// are `wales` times `courses` cells, row after row from the bottom, and in each row from left
+    /// to right. Null for a knit that `stitches` gives. A row becomes one course for each of its
+    /// yarns, in the order of their numbers. The front needles knit the course's yarn where the
+    /// picture has that yarn. The yarn floats past the other front needles.
     pub jacquard: *const u32,
 }
 

@@ -27,9 +27,10 @@ pub const TEXERE_FORMAT_STL: u32 = 2;
 /// the bytes of the `.obj` file alone, which names `materials.mtl`.
 pub const TEXERE_FORMAT_OBJ: u32 = 3;
 /// glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
-/// extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
-/// largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
-/// made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+/// extension KHR_mesh_quantization allows. The largest side of the box that a yarn lies in has
+/// 65,534 steps. Coordinates are off by half a step at most, and normals by 0.4 degrees. The mesh
+/// is made twice. A yarn whose box has a side of more than 655 mm is refused with
+/// TEXERE_UNSUPPORTED.
 pub const TEXERE_FORMAT_PACKED_GLB: u32 = 4;
 /// A packed glTF file that is compressed to about half of its bytes, as the extension
 /// EXT_meshopt_compression says.

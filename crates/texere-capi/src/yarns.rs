@@ -180,9 +180,10 @@ pub unsafe extern "C" fn texere_yarns_read_memory(
 
 /// Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
 /// polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-/// `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
-/// unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
-/// and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
+/// `.usd`. Reads yarns of TexGen, `.tg3`, too, which keep the sections that they have there.
+/// `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns. 0 for
+/// either stands for what a `.usda`, `.usd` or `.tg3` file says. For other files `diameter_mm` must
+/// not be 0, and a `unit_mm` of 0 stands for 1 mm.
 ///
 /// Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
 /// lacks the diameter.
@@ -242,8 +243,9 @@ pub const TEXERE_YARNS_FORMAT_USDA: u32 = 2;
 pub const TEXERE_YARNS_FORMAT_LINEAR_USDA: u32 = 3;
 
 /// Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-/// writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
-/// The callback runs on the calling thread, with `user` as its first argument.
+/// writes, or those of a file of straight lines with TEXERE_YARNS_FORMAT_LINEAR_USDA. `format` is a
+/// constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on the calling thread,
+/// with `user` as its first argument.
 ///
 /// Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
 /// TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then

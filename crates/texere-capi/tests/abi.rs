@@ -167,8 +167,8 @@ fn each_kind_of_change_is_seen() {
     );
 }
 
-/// A struct that grows must not move what lies behind it in another struct, and no member that is
-/// added may lie where an earlier program's struct has padding, which that never sets.
+/// A struct that grows must not move what lies behind it in another struct. No member that is added
+/// may lie where an earlier program's struct has padding, because that program never sets padding.
 #[test]
 #[cfg(target_os = "linux")]
 fn structs_that_say_their_size_can_grow() {

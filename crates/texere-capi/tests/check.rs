@@ -127,8 +127,8 @@ fn number(value: &Value, path: &str) -> f64 {
     value.pointer(path).and_then(Value::as_f64).unwrap_or(f64::NAN)
 }
 
-/// Makes sure that `found` is the number at a path of keys. It may differ in the last digit, to
-/// which the reader of JSON is not exact.
+/// Makes sure that `found` is the number at a path of keys. The two may differ in the last digit,
+/// because the reader of JSON is not exact to that digit.
 #[track_caller]
 fn is_at(found: f64, value: &Value, path: &str) {
     let wanted = number(value, path);

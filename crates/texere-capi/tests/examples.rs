@@ -55,7 +55,8 @@ fn a_weave_a_knit_and_a_warp_knit_have_the_meshes_of_rust() {
         let own = folder.path().join("rust.ply");
         texere::write::stream(Pipeline::new(cloth.yarns()), &*device, &own).unwrap();
         assert!(std::fs::read(&output).unwrap() == std::fs::read(&own).unwrap(), "{design}: {said}");
-        // The same chunks as the library's, because a ring at which chunks meet counts twice.
+        // The mesh is cut into the library's chunks, because a ring at which two chunks meet
+        // counts twice.
         let cores = std::thread::available_parallelism().unwrap().get() as u64;
         let limits = Limits { binding_bytes: (cores << 24).clamp(32 << 20, 64 << 20), ..Limits::NONE };
         let mesh = Pipeline::new(cloth.yarns()).limits(limits).mesh(&*device).unwrap();

@@ -1,5 +1,5 @@
-//! Every writer of the C library gives a callback the same bytes that it writes to a file, and ends
-//! when the callback asks it to.
+//! The writers of designs, drafts, yarns and pictures give a callback the same bytes that they
+//! write to a file, and end when the callback asks them to.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -139,7 +139,7 @@ fn callbacks_are_handed_the_bytes_of_the_files() {
         assert_eq!(points(again), points(yarns), "{name}");
     }
     // Yarns that are read from the bytes of a `.yarns` file are written as the same bytes again.
-    // Bytes that lack the last one are refused.
+    // A file that lacks its last byte is refused.
     let (name, file) = ("memory.yarns", &seen[5]);
     // SAFETY: all pointers are those of values that live as long as the calls.
     unsafe {

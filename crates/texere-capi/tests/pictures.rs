@@ -1,5 +1,5 @@
-//! Pictures and drafts from C have the same bits as those from Rust. They need a Vulkan device, for
-//! which the software renderer lavapipe is enough.
+//! Pictures and drafts from C have the same bits as those from Rust. Pictures need a Vulkan device.
+//! The software renderer lavapipe is enough.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 
@@ -43,7 +43,7 @@ fn renderer() -> *mut texere_renderer {
     renderer
 }
 
-/// The scene that Rust makes of that cloth, with the settings for a picture of woven cloth.
+/// The scene that Rust makes of `cloth`, with the settings for a picture of woven cloth.
 fn scene(cloth: &Cloth) -> Scene {
     let yarns = cloth.yarns();
     let settings = Settings { sides: picture_sides(yarns, true), ..Settings::default() };

@@ -17,7 +17,7 @@ use texere_c::*;
 use common::{message, sized};
 use reading::read;
 
-/// A plain weave of `count` ends and picks.
+/// The text of a 2/1 twill of `threads` ends and picks.
 fn woven(threads: u32, settles: bool) -> String {
     format!(
         "weave = {{ notation = \"2/1\", ends = {threads}, picks = {threads} }}\n\
@@ -61,7 +61,7 @@ fn placed(text: &str) -> Shared<texere_yarns> {
     Shared(yarns)
 }
 
-/// Makes the mesh of a design from its text. Returns the status and the bytes of the mesh.
+/// Makes the mesh of a design from its text. Returns the bits of the vertices, and the indices.
 fn mesh(text: &str, device: Shared<texere_device>) -> (Vec<[u32; 6]>, Vec<u32>) {
     let yarns = placed(text);
     let (mut plan, mut counts) = (null_mut(), sized::<texere_counts>());

@@ -66,8 +66,8 @@ impl Fail {
         }
     }
 
-    /// A plot of settling was asked for, but the design is woven. Only knits record the passes that
-    /// a plot shows.
+    /// A plot of settling was asked for, but the yarns do not settle by contact. Only settling
+    /// by contact records the passes that a plot shows.
     pub(crate) fn no_course() -> Self {
         Self {
             code: USAGE,

@@ -144,7 +144,7 @@ fn outputs(args: &RenderArgs, read: &[impl AsRef<Path>]) -> Result<Vec<Output>, 
     let checked = paths.into_iter().map(|path| {
         let output = Output::to(&path).sparing(read);
         output.check()?;
-        // It fails for a file that does not exist yet, and such a file is no link to another.
+        // `canonicalize` fails for a file that does not exist yet. Such a file links to no other.
         let real = fs::canonicalize(&path).ok();
         if real.is_some_and(|real| !taken.insert(real)) {
             Err(Fail::written_twice(&path))

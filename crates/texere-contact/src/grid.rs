@@ -75,12 +75,13 @@ impl Grid {
                 }))
             })
             .try_reduce(|| (Bounds::NOTHING, 0.0, 0), |a, b| Ok((a.0.joined(b.0), a.1 + b.1, a.2 + b.2)))?;
-        // Cells are made larger as long as a few large boxes lie in too many of them.
+        // Cells are made larger as long as there are more than two for each box, or as a few large
+        // boxes lie in too many of them.
         let mut cell = (CELL * sides / count.max(1) as f64) as f32;
         loop {
             let size = whole.high - whole.low;
             let wanted = (size / cell).floor() + 1.0;
-            // A fabric is thin: a few layers of cells would separate what lies on top of one
+            // A fabric is thin: a few layers of cells would separate yarns that lie on top of one
             // another.
             let wanted = Vec3A::select(wanted.cmple(Vec3A::splat(LAYERS)), Vec3A::ONE, wanted);
             let total = wanted.as_dvec3().element_product();

@@ -7,10 +7,10 @@ use texere_core::{ControlPoint, YarnPlace, Yarns};
 /// leaves such a piece by less than a hundredth of its radius.
 const PIECES: u16 = 24;
 
-/// Places of the yarns under the point (`x`, `y`), mm, the topmost first. A yarn lies under the
-/// point if its outline, seen from the face, holds the point. A yarn that passes under the point
-/// several times is listed once for each pass, at the place nearest to the point. A pass ends with
-/// an interval between control points that is not under the point.
+/// Places of the yarns under `point` (x and y, mm), the topmost first. A yarn lies under the point
+/// if its outline, seen from the face, holds the point. A yarn that passes under the point several
+/// times is listed once for each pass, at the place nearest to the point. A pass ends with an
+/// interval between control points that is not under the point.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Yarn, Yarns};
@@ -35,7 +35,8 @@ pub fn yarns_under(yarns: &Yarns, point: [f64; 2]) -> Vec<YarnPlace> {
             let four = neighbours(points, yarn.closed, interval);
             if may_hold(&four, point) { nearest(&four, point, s) } else { None }
         };
-        // A pass over the seam of a closed yarn is one pass, so the search begins behind it.
+        // A pass over the seam of a closed yarn is one pass, so the search begins at an interval
+        // that is not under the point.
         let is_clear = |interval: &usize| nearest(*interval).is_none();
         let first = if yarn.closed { (0..intervals).find(is_clear).unwrap_or(0) } else { 0 };
         // The distance and the place of the pass that goes on from the interval before.

@@ -62,8 +62,8 @@ impl Boundary {
     /// A boundary for the yarns of `layout`, with a repeat of `repeat` mm along x and y (0 for
     /// none) and the `ends` of each yarn.
     ///
-    /// **Errors**: [`BoundaryError::Repeat`] for a repeat that is not finite, negative or beyond
-    /// [`COORDINATE_LIMIT`], and the errors of [`Boundary::check`].
+    /// **Errors**: [`BoundaryError::Repeat`] for a repeat that is negative, beyond
+    /// [`COORDINATE_LIMIT`] or not a number, and the errors of [`Boundary::check`].
     pub fn new(layout: &Layout, repeat: [f32; 2], ends: Vec<Ends>) -> Result<Self, BoundaryError> {
         for (axis, length) in ['x', 'y'].into_iter().zip(repeat) {
             if !(0.0..=COORDINATE_LIMIT).contains(&length) {

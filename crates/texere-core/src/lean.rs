@@ -33,7 +33,8 @@ const RIGHT_ANGLE: f64 = 1e-9;
 /// ```
 /// use glam::DVec3;
 /// use texere_core::definitions::up_between;
-/// // Half way along a quarter of a turn to the right, an up that stands on the plane of the turn stays, and one in it turns along.
+/// // A yarn makes a quarter of a turn to the right. Half way along, an up at right angles to the
+/// // plane of the turn is unchanged. An up in this plane has turned with the yarn.
 /// let (tangents, tangent) = ([DVec3::X, -DVec3::Y], DVec3::new(0.5, -0.5, 0.0).normalize());
 /// assert!((up_between([DVec3::Z; 2], tangents, tangent, 0.5) - DVec3::Z).length() < 1e-12);
 /// let along = up_between([DVec3::Y, DVec3::X], tangents, tangent, 0.5);

@@ -20,8 +20,8 @@ pub struct Material {
     /// [`HAIRINESS_LIMIT`] at most. Only pictures show these fibres.
     pub hairiness: f32,
     /// Bending stiffness B, N mm²: the moment for a curvature of 1/mm, within [`BENDING_LIMITS`].
-    /// Knits that come to rest by their energy use it. None for that of soft cotton of equal tex,
-    /// or without tex, of equal thickness.
+    /// Knits that come to rest by their energy use it. If it is `None`, the yarn bends as soft
+    /// cotton of equal tex does, or as soft cotton of equal thickness if the material has no tex.
     pub bending: Option<f32>,
 }
 

@@ -76,8 +76,10 @@ fn yarn_range(plan: &Plan, yarn: usize) -> Range<usize> {
 /// equations 3 and 4 for an open yarn, wrapped neighbours for a closed one.
 ///
 /// `padded` has the layout of [`Plan::padded_offsets`]: one place before the yarn's own points, and
-/// one place (for an open yarn) or three (for a closed one) behind them. **Panics** for fewer than
-/// two own points (three if closed).
+/// one place (for an open yarn) or three (for a closed one) behind them. The yarn has two own
+/// points at least (three if closed).
+///
+/// **Panics** if `padded` is shorter than three places (four if closed).
 ///
 /// ```
 /// use texere_core::backend::renew_virtual_ends;

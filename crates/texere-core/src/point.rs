@@ -16,8 +16,8 @@ use crate::half;
 ///
 /// **Shape**: three `f32` and two half floats (IEEE 754 binary16), 16 bytes, 16-byte stride.
 /// **Units**: millimetres. The spline interpolates all five components, so half width and half
-/// height alone make slubs (thick places) and flat places. A half float has 11 bits, so sizes are
-/// rounded by at most 1 in 2048.
+/// height alone make slubs (thick places) and flat places. A half float has 11 significant bits, so
+/// sizes are rounded by at most 1 in 2048.
 ///
 /// ```
 /// use texere_core::ControlPoint;

@@ -263,8 +263,8 @@ impl<E: Engine + ?Sized> Session<E> {
         Ok(())
     }
 
-    /// Waits for this chunk's rings and lends them piece by piece, in order. Runs stage 1 first if
-    /// [`Session::mesh`] has run without it, straight from control points. If the sink answers
+    /// Waits for this chunk's rings and lends them piece by piece, in order. If [`Session::mesh`]
+    /// has made the mesh straight from control points, stage 1 runs first. If the sink answers
     /// `Break`, reading ends and the answer is returned.
     ///
     /// **Errors**: [`SessionError::ForeignChunk`], [`SessionError::NotInFlight`], and

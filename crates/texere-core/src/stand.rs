@@ -11,8 +11,8 @@ use crate::lean::Leaning;
 use crate::steep::{UPRIGHT_TURN, carried_steps, is_flat, runs_straight, upright_turns_beyond, wrings};
 
 /// The largest turn of the upright frame of a flattened yarn within a control interval, turns: 15
-/// degrees. It is also the largest turn of the yarn's ups from control point to control point while
-/// they return to the upright frame.
+/// degrees. A flattened yarn whose frame turns by more gets ups. The angle is also the largest turn
+/// of the ups from control point to control point while they return to the upright frame.
 ///
 /// With 20 degrees, rings of a flat jersey turn by up to 34 degrees, because its tangents bend
 /// between two points (`every_design_is_drawn_without_wringing_when_its_yarns_are_flat`). With a
@@ -42,8 +42,8 @@ pub(crate) struct Stand {
 impl Stand {
     /// The stand of the yarn through `points`, with given up directions or without.
     ///
-    /// A flattened yarn without given ups gets ups if its upright frame turns too fast, or if it is
-    /// vertical at a control point.
+    /// A flattened yarn without given ups gets ups if its upright frame turns too fast, or if the
+    /// yarn is vertical at a control point.
     pub(crate) fn of(points: &[ControlPoint], closed: bool, ups: Option<&[Vec3]>) -> Self {
         let given = ups.is_some();
         let upright = Self { steep: false, leaning: None };

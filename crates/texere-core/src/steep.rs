@@ -65,9 +65,9 @@ pub(crate) fn is_flat(points: &[ControlPoint]) -> bool {
 ///
 /// The bound is that of [`turn_at_most`], with the tangent of the swing instead of its angle, and 1
 /// instead of the sine of the slope. In plan, the middle one of an interval's three Bézier
-/// velocities is three times the chord, less the two velocities at the ends. In a yarn that keeps
-/// to a plane the middle one may point backwards, for example if the next chord is much longer, as
-/// long as the velocity itself never does.
+/// velocities is three times the chord, less the two velocities at the ends. The middle one points
+/// backwards, for example, if the next chord is much longer. In a yarn that keeps to a plane this
+/// is accepted, as long as the velocity itself never points backwards.
 pub(crate) fn runs_straight(points: &[ControlPoint], closed: bool) -> bool {
     let plan = |from: &ControlPoint, to: &ControlPoint| (to.position() - from.position()).truncate();
     let (first, last) = (&points[0], &points[points.len() - 1]);

@@ -7,8 +7,8 @@
 //!
 //! The polynomials are those of Moshier's Cephes library (`sinf`, `cosf`, `atanf`, single
 //! precision, 1992). The arctangent's coefficients are divided by 2π so that the result is in
-//! turns. They are written out here because the last bit of the standard library's `sin` differs
-//! from platform to platform.
+//! turns. The polynomials are written out here because the last bit of the standard library's `sin`
+//! differs from platform to platform.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -52,8 +52,8 @@ impl Turn {
     #[must_use]
     #[inline]
     pub fn from_turns(turns: f32) -> Self {
-        // The value lies in [-1/2, 1/2]. The subtraction may round it to slightly below -1/2, which
-        // `max` corrects.
+        // Below 2²³ turns the value lies in [-1/2, 1/2]. From there on, the sum may be rounded up,
+        // and `max` keeps the value from falling below -1/2.
         let wrapped = (turns - (turns + 0.5).floor()).max(-0.5);
         Self(((wrapped * Self::STEPS + 0.5).floor() as i32).cast_unsigned())
     }

@@ -36,7 +36,8 @@ pub const TWIST_SUBDIVISIONS_MAX: u32 = 63;
 const TWIST_RINGS_MAX: u64 = 1 << 21;
 
 /// A warning: the rings of a mesh are too far apart for the twist of a yarn, so that its plies lean
-/// the wrong way or its tube is wrung, that is, narrow between rings. Its text is one line.
+/// the wrong way or its tube is wrung, that is, narrow between rings. The warning's text is one
+/// line.
 ///
 /// ```
 /// use texere_core::{ControlPoint, Pipeline, Section, Settings, Undersampled, Yarn, Yarns};

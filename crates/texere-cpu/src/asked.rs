@@ -31,9 +31,9 @@ pub(crate) fn in_parts(
     ControlFlow::Continue(())
 }
 
-/// Calls `work` with one part of `items` after the other, and before it the number of the part's
-/// first item. Asks `watch` before each part. All parts but the last have `size` items. `Break` as
-/// soon as `watch` breaks off.
+/// Calls `work` with one part of `items` after the other. The first argument of `work` is the
+/// number of the part's first item. Asks `watch` before each part. All parts but the last have
+/// `size` items. `Break` as soon as `watch` breaks off.
 ///
 /// **Errors**: the first of `work`.
 pub(crate) fn in_slices<T>(

@@ -63,8 +63,8 @@ impl SerialBackend {
 
 impl ParallelBackend {
     /// Opens the parallel backend, which works on rayon's global pool. The environment variable
-    /// `TEXERE_SIMD` (`portable`, `avx2` or `avx512`) names the vector instructions that it uses.
-    /// If the variable is not set, it uses the widest vectors that the processor has.
+    /// `TEXERE_SIMD` (`portable`, `avx2` or `avx512`) names the vector instructions to use. If the
+    /// variable is not set, the backend uses the widest vectors that the processor has.
     ///
     /// ```
     /// use texere_core::Backend;

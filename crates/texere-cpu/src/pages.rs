@@ -3,7 +3,7 @@
 #![cfg_attr(target_os = "linux", allow(unsafe_code, reason = "tells the system about a range of memory"))]
 
 /// Asks the system for huge pages for `memory`. Pages that have been touched already stay as they
-/// are. It is for memory of some megabytes that is new, and about to be filled.
+/// are. The function is for memory of some megabytes that is new, and about to be filled.
 ///
 /// ```
 /// let mut vertices = vec![0.0_f32; 1 << 22];

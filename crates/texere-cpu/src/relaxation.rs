@@ -11,7 +11,8 @@ use texere_core::relaxation::{
 
 use crate::asked::in_parts;
 
-/// The number of intervals between two questions to the caller while samples are worked out.
+/// The number of intervals whose samples are worked out between two questions to the caller whether
+/// to go on.
 const PART: usize = 4096;
 
 /// The samples of a state, the lists of neighbours, and the pulls of all intervals.

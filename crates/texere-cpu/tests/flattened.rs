@@ -30,8 +30,8 @@ enum Sizes {
     Changing,
     /// Round for a while, then flattened, and so on, so that vectors hold both kinds of rings.
     HereAndThere,
-    /// From the least allowed size to the greatest, so that the spline of the sizes dips below
-    /// zero, and sizes at virtual ends are negative.
+    /// From the least allowed size to 20 m, so that the spline of the sizes dips below zero, and
+    /// sizes at virtual ends are negative.
     Wild,
 }
 

@@ -1,5 +1,6 @@
-//! Yarns that stay in a plane of constant x or y. The scan does not work out how they turn from
-//! ring to ring. Their meshes equal those of the reference to the bit.
+//! Yarns in a plane of constant x or y. The scan skips the turns from ring to ring where such a
+//! yarn goes on without turning back and has no twist. The meshes of these yarns equal those of the
+//! reference to the bit.
 
 #![allow(clippy::unwrap_used, reason = "a test ends at what it did not expect")]
 

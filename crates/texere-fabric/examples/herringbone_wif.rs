@@ -1,4 +1,4 @@
-//! Draws `designs/herringbone.wif`, a striped herringbone on four shafts:
+//! Prints the WIF file `designs/herringbone.wif`, a striped herringbone on four shafts:
 //!
 //! ```text
 //! cargo run -p texere-fabric --example herringbone_wif > designs/herringbone.wif

@@ -134,7 +134,7 @@ impl Fibre {
             Self::Viscose => (0.74, 6.5, 0.17),
             Self::Wool => (0.8, 2.3, 0.5),
         };
-        // N tex² / (g/cm³) is 0.001 N mm² tex.
+        // The unit of the product is N tex / (g/cm³), which is 0.001 N mm².
         1e-3 * shape * modulus * fibre_tex / (4.0 * PI * self.density()) * tex
     }
 
@@ -154,7 +154,7 @@ impl Fibre {
     /// The least area that the section of a yarn keeps, as a share of the section of the yarn as it
     /// is spun. `yarn_density` (g/cm³) is the density of the yarn as it is spun, the air in it
     /// included. `packing` is the largest share of the section that fibre fills. The least area is
-    /// 1 if the yarn is as dense already.
+    /// 1 if fibre fills this share, or more, of the yarn as it is spun.
     ///
     /// ```
     /// use texere_fabric::{COTTON_DENSITY, COTTON_LEAST_AREA, Fibre, PACKING};

@@ -46,10 +46,10 @@ pub struct Measures {
     /// Length of yarn of each material, mm, in the order of the materials. Yarn beyond the edges of
     /// a knit does not count.
     pub length_mm: Vec<f64>,
-    /// Crimp: length of yarn over length of cloth, less 1, in whole repeats. None for any other
-    /// fabric. Turns
-    /// at a selvedge count as weft. The crimp of a weft that turns therefore tells how much yarn
-    /// the mill has to wind, and is more than the crimp of a pick without its turns.
+    /// Crimp of woven cloth: length of yarn over length of cloth, less 1, in whole repeats. None
+    /// for any other fabric. Turns at a selvedge count as weft. The crimp of a weft that turns
+    /// therefore tells how much yarn the mill has to wind, and is more than the crimp of a pick
+    /// without its turns.
     ///
     /// **Source**: BS 2863 and ISO 7211-3 define crimp in this way.
     pub crimp: Option<BySet<f64>>,

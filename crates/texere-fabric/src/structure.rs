@@ -85,8 +85,8 @@ impl Structure {
         }
     }
 
-    /// The tension of the yarns' splines unless a caller asks for another. It is 0, or that of
-    /// yarns that no structure made.
+    /// The tension of the yarns' splines unless a caller asks for another. It is 0, except for
+    /// yarns that no structure made, which keep the tension of their own layout.
     #[must_use]
     pub fn tension(&self) -> f32 {
         match self {
@@ -141,8 +141,9 @@ impl Structure {
     /// and other yarns by contact ([`settle`]). `tension` is the tension of all yarns' splines,
     /// from 0 to below 1.
     ///
-    /// **Errors**: the errors of the method that is called. Woven cloth also gives
-    /// [`FinishError::Woven`] if `finish` asks for a length, a press or a course.
+    /// **Errors**: the errors of the method that is called, such as [`FinishError::Woven`] for
+    /// woven cloth if `finish` asks for a length, a press or a course. Yarns that no structure made
+    /// give [`FinishError::NoEnergy`] if `finish` asks for [`RestBy::Energy`].
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -288,7 +289,8 @@ impl Structure {
     /// let cloth = Woven::new(plain, warp, weft, vec![Material::default()], vec![Section::Circle])?;
     /// let structure = Structure::Woven(WovenDesign::new(cloth, None, Relief::Report)?);
     /// let yarns = structure.yarns()?;
-    /// // End 3 lies from x = 2 to 3 mm, pick 4 from y = 3 to 4 mm; the warp is up there, or the weft.
+    /// // End 3 lies from x = 2 to 3 mm, and pick 4 from y = 3 to 4 mm. Both lie under the point.
+    /// // Which of the two is on top depends on the weave, so their names are sorted.
     /// let places = yarns_under(&yarns, [2.5, 3.5]).iter().map(|place| structure.place(&yarns, place)).collect::<Vec<_>>();
     /// let mut said = places.iter().map(ToString::to_string).collect::<Vec<_>>();
     /// said.sort();
@@ -311,8 +313,8 @@ impl Structure {
         }
     }
 
-    /// Width and height of the fabric, mm. For yarns that no structure made, those of the box round
-    /// their control points and half widths.
+    /// Width and height of the fabric, mm. Yarns that no structure made have the size of the box
+    /// round their control points and half widths.
     #[must_use]
     pub fn size_mm(&self) -> [f64; 2] {
         match self {

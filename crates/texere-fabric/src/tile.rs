@@ -136,7 +136,7 @@ impl Structure {
 }
 
 /// Copies of a knit's smallest repeat. Some of them settle as one piece. On each side of this piece
-/// lie as many equal pieces as have yarns that reach into it, and one more.
+/// lie pieces of the same size: all whose yarns reach into this piece, and one more.
 #[derive(Debug, Clone, Copy)]
 struct Copies {
     before: [u32; 2],

@@ -1,9 +1,9 @@
-//! Readers and writers of files. The readers read designs and saved yarns. The writers write
-//! meshes, saved yarns, designs, drafts and pictures.
+//! Readers and writers of files. The readers read designs, saved yarns and curves. The writers
+//! write meshes, saved yarns, curves, designs, drafts and pictures.
 //!
-//! [`write`](mod@write) turns a mesh into a GLB or PLY file, whole or piece by piece as a device
-//! makes it. It also turns designs into WIF drafts, knitout files or design files, saves yarns, and
-//! draws drafts, charts and lapping diagrams.
+//! [`write`](mod@write) turns a mesh into a GLB, PLY, STL, OBJ or USD file, whole or piece by piece
+//! as a device makes it. It also turns designs into WIF drafts, knitout files or design files,
+//! saves yarns and their centrelines, and draws drafts, charts and lapping diagrams.
 
 // A build without some formats still compiles the code that all formats share, and does not use all
 // of that code. A build with all formats has no unused code.

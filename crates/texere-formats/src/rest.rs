@@ -64,8 +64,8 @@ impl RestReport {
 
 impl Cloth {
     /// The design. After a stretch its structure is the stretched one, [`Design::stretch`] is none,
-    /// and [`Design::finish`] has the tensions that hold the stretch. A knit at rest by its energy
-    /// has the gauge that follows.
+    /// and [`Design::finish`] has the tensions that hold the stretch. If a knit came to rest by its
+    /// energy, its structure has the gauge at rest.
     #[must_use]
     pub const fn design(&self) -> &Design {
         &self.design
@@ -177,8 +177,9 @@ impl Design {
         Ok(Cloth { design: self, report: RestReport::Placed(yarns), stretched: false })
     }
 
-    /// Lets a knit come to rest by its energy, then strains it along one way and measures how it
-    /// pulls at each of `strains`, which rise. The loops have the lengths that the design asks for.
+    /// Lets a knit come to rest by its energy, then strains it along the courses, the wales or
+    /// both, as `along` says. Measures how the knit pulls at each of `strains`, which rise. The
+    /// loops have the lengths that the design asks for.
     /// `progress` gets the share of the work that is done, from 0 to 1. `Break` ends the work.
     ///
     /// **Errors**: a [`Refusal`] for a design that is no knit that repeats, for strains that don't

@@ -96,8 +96,8 @@ fn thousands_of_weaves() {
     std::fs::write(&path, text).unwrap();
     let peak = peak_mib(move || {
         let design = soon(move || read(path)).unwrap();
-        // The few threads that the cloth has of its large weaves fall apart into layers. The second
-        // warning says so.
+        // The cloth has only four ends and four picks of each large weave, so it falls apart into
+        // layers. The second warning says so.
         let [warning, layers] = &design.warnings()[..] else { panic!("{:?}", design.warnings()) };
         assert!(layers.contains("layers (") && layers.chars().count() < 300, "{layers}");
         assert!(warning.contains("4984 colours") && warning.chars().count() < 300, "{warning}");

@@ -24,7 +24,7 @@ pub struct ThreadRow {
     pub stiffness: f32,
     /// The ratio of width to thickness that the thread tends to.
     pub aspect: f32,
-    /// The weight of the difference from that ratio.
+    /// The weight of the difference from [`ThreadRow::aspect`].
     pub shape: f32,
     /// The least area of the thread's section, as a share of its area.
     pub least_area: f32,
@@ -172,7 +172,7 @@ pub fn crossings_batches(
 ///
 /// **Shape**: a `u32`. Its lowest bits are four distances of [`CrossingSite::STEPS`] bits each:
 /// from the end to the nearest end of its level before it and after it, and likewise for the pick.
-/// A distance is 0 if there is no such thread. Three bits follow.
+/// A distance is 0 if there is no such thread within [`BESIDE_MAX`] threads. Three bits follow.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct CrossingSite(pub u32);

@@ -10,11 +10,11 @@ use crate::upload::Ends;
 /// The buffers that a session of the schedule per-ring keeps on a GPU while it makes the meshes of
 /// all chunks of `plan`. Each entry names what a buffer holds, and gives the buffer's bytes. The
 /// buffers of the two chunks in flight come last. `limits` are the limits to which the chunks of
-/// the caller and those of a [scan](texere_core::backend::Session::with_limits) are cut. A scan has
-/// chunks of the whole cloth. Where these are larger than the caller's, whose plan may be of a
-/// region, tables are as large as the scan needs them.
+/// the caller and those of a [scan](texere_core::backend::Session::with_limits) are cut.
 ///
 /// These are not counted:
+/// - the tables of a scan, as far as they are larger than those of the caller's chunks: a scan has
+///   chunks of the whole cloth, even if `plan` is of a region,
 /// - the rounding up of each buffer to what kernels read at a time,
 /// - parameters and time stamps, some hundred bytes,
 /// - the 16 MiB that wgpu maps to upload through, and two buffers of up to 96 MiB each through

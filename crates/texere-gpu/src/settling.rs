@@ -77,7 +77,7 @@ pub struct ChordRow {
 
 const _: () = assert!(size_of::<ChordRow>() == 16 && std::mem::offset_of!(ChordRow, thickest) == 12);
 
-/// The parameters of all launches of a list or a pass.
+/// The parameters of all launches of a pass, or of those that list the neighbours of chords.
 ///
 /// **Shape**: 24 4-byte values, 96 bytes. Uniform buffers need a multiple of 16.
 #[repr(C)]

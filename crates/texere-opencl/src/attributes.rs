@@ -57,8 +57,8 @@ impl Attributes {
         let args = [&work.inputs(&params, &window, memory)[..5], &[Arg::Memory(&self.lengths)]].concat();
         // SAFETY: the arguments are those of `block_lengths`. A group reads its row of the chunk's
         // table and what the row names, and writes its block's length. There is a length for each
-        // block of the plan. A row for a repeated ring writes the length of the next chunk's first
-        // block.
+        // block of the plan. A row for a repeated ring writes 0 for the next chunk's first block,
+        // whose length the next chunk's row writes later.
         unsafe { self.block_lengths.run(work.opened, &args, 0..memory.rows, memory.ready.as_deref()) }
     }
 

@@ -118,8 +118,8 @@ impl Buffer {
         bytes: u64,
     ) -> Result<(), BackendError> {
         if bytes > self.bytes {
-            // The old memory is released first. Both need room together only while commands still
-            // use the old memory.
+            // The old memory is released first. So old and new memory need room together only while
+            // commands still use the old one.
             *self = Self::default();
             *self = Self::new(opened, what, bytes)?;
         }
@@ -170,8 +170,8 @@ impl Buffer {
     ) -> Result<Handle, i32> {
         let after = after.map(Handle::raw);
         let (events, list) = after.as_ref().map_or((0, ptr::null()), |event| (1, ptr::from_ref(event)));
-        // SAFETY: the pointer is to `bytes` bytes, and by this function's contract they do not
-        // change. A range past the buffer's end comes back as an error.
+        // SAFETY: the pointer and the size are those of `data`, which does not change by this
+        // function's contract. A range past the buffer's end comes back as an error.
         Handle::event(unsafe {
             enqueue_write_buffer(
                 queue.raw(),

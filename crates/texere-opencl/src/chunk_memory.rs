@@ -38,8 +38,8 @@ impl ChunkMemory {
         [table, caps, rings, vertices, indices, attributes, packed].map(Buffer::bytes).iter().sum()
     }
 
-    /// Sends the tables of `chunk`, which is one of `plan`'s. They are sent while the kernels of
-    /// the other chunk run, but after the kernels that still use this memory.
+    /// Sends the tables of `chunk`, which is one of `plan`'s. They are sent while kernels of
+    /// another chunk run, but after kernels that still use this memory.
     pub(crate) fn load(&mut self, opened: &Opened, plan: &Plan, chunk: &Chunk) -> Result<(), BackendError> {
         let Self { loaded, table, caps, ready, .. } = self;
         self.rows = loaded.load(plan, chunk, || {

@@ -15,9 +15,9 @@ pub struct DeviceMesh<'a> {
     pub vertices: *mut c_void,
     /// A `cl_mem` with the chunk's `u32` indices from its start, or null if the chunk has none.
     pub indices: *mut c_void,
-    /// A `cl_mem` with the [`Attribute`](texere_core::Attribute)s of these vertices, if they were
-    /// made. If none were made for this chunk, it holds those of an earlier chunk, or is null if
-    /// this memory never had any.
+    /// A `cl_mem` with the chunk's [`Attribute`](texere_core::Attribute)s from its start, if they
+    /// were made. If none were made for this chunk, it holds those of an earlier chunk, or is null
+    /// if this memory never had any.
     pub attributes: *mut c_void,
     /// A `cl_mem` with the chunk's [`PackedVertex`](texere_core::PackedVertex)es from its start, if
     /// they were made. If none were made for this chunk, it holds those of an earlier chunk, or is

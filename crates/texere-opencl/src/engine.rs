@@ -134,8 +134,8 @@ impl OpenClEngine {
         Ok(())
     }
 
-    /// Starts the kernels of a stage, notes their time, and lets the memory of `slot` wait for
-    /// them.
+    /// Starts the kernels of a stage and notes their time. Later work in the memory of `slot` waits
+    /// for these kernels.
     fn run(
         &mut self,
         stage: Stage,
@@ -148,7 +148,8 @@ impl OpenClEngine {
         self.note(stage, slot, started, launches)
     }
 
-    /// [`Self::run`] for the kernels of attributes. The plan must have been measured.
+    /// [`Self::run`] for the kernels of attributes. Fails with [`BackendError::NoAttributes`] if
+    /// [`Engine::measure`] has not made these kernels yet.
     fn run_attributes(
         &mut self,
         stage: Stage,
@@ -162,7 +163,8 @@ impl OpenClEngine {
         self.note(stage, slot, started, launches)
     }
 
-    /// Notes the time of a stage's launches, and lets the memory of `slot` wait for them.
+    /// Notes the time of a stage's launches. Later work in the memory of `slot` waits for these
+    /// launches.
     fn note(
         &mut self,
         stage: Stage,

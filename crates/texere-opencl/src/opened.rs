@@ -24,8 +24,8 @@ pub(crate) struct Opened {
     pub(crate) name: String,
     pub(crate) schedule: Schedule,
     pub(crate) context: Handle,
-    /// The queue of kernels and of uploads of control points, which it runs in the order of the
-    /// calls.
+    /// The queue of kernels and of uploads of control points. It runs its commands in the order of
+    /// the calls.
     pub(crate) queue: Handle,
     /// Whether `queue` times its commands.
     pub(crate) profiled: bool,

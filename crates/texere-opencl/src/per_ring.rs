@@ -64,7 +64,8 @@ impl Kernels for PerRing {
         let Work { opened, tables, .. } = work;
         let args = [Arg::Memory(&tables.yarns), Arg::Memory(&tables.rolls), Arg::Memory(&tables.yarn_turns)];
         // SAFETY: the arguments are those of `yarn_rolls`. A group reads its yarn's row, reads and
-        // writes the yarn's rolls, and writes its total turn. There is room for all of the plan's.
+        // writes the yarn's rolls, and writes its total turn. There is room for the rolls and the
+        // total turns of all yarns of the plan.
         unsafe { self.yarn_rolls.run(opened, &args, yarns, None) }
     }
 

@@ -1,4 +1,5 @@
-//! The schedule per-yarn, the paper's algorithms 2 and 4, in which a lane makes a part of a yarn.
+//! The schedule per-yarn, in which a lane makes a part of a yarn: algorithms 2 and 4 of the paper
+//! in README.md.
 
 use std::ops::Range;
 

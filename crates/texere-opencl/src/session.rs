@@ -38,8 +38,8 @@ impl OpenClSession {
     /// The mesh of `chunk` in device memory, for a caller that draws it or processes it further
     /// there.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
-    /// [`Session::mesh`] has been called for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless the
+    /// session still holds the results of a [`Session::mesh`] of this chunk.
     pub fn device_mesh(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         let slot = self.0.slot_of_mesh(chunk)?;
         let mut mesh = DeviceMesh::new(self.0.engine().memory(slot));
@@ -53,8 +53,8 @@ impl OpenClSession {
     /// The packed vertices of `chunk` in device memory. The other buffers of the result may be
     /// those of an earlier chunk.
     ///
-    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless
-    /// [`Session::packed`] has been called for this chunk.
+    /// **Errors**: [`SessionError::ForeignChunk`], and [`SessionError::NotInFlight`] unless the
+    /// session still holds the results of a [`Session::packed`] of this chunk.
     pub fn device_packed(&self, chunk: &Chunk) -> Result<DeviceMesh<'_>, SessionError> {
         Ok(DeviceMesh::new(self.0.engine().memory(self.0.slot_of_packed(chunk)?)))
     }

@@ -33,7 +33,8 @@ const FIRST_POINTS: u64 = (16 << 20) / POINT_BYTES;
 const PIECE_POINTS: u64 = (8 << 20) / POINT_BYTES;
 const FIRST_PIECE_POINTS: u64 = (2 << 20) / POINT_BYTES;
 
-/// The number of points that a core pads at a time. A piece is a multiple of it.
+/// The number of points that a core pads at a time. Every piece but the last has a multiple of this
+/// number.
 const PART_POINTS: u64 = (32 << 10) / POINT_BYTES;
 
 /// The number of pieces that have memory at once: one is filled, one is sent, and the third keeps

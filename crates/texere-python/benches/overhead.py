@@ -6,9 +6,10 @@
 
 The cloth is a 3/1 twill with one control point at each crossing, as in the other benches, with the
 sides and subdivisions that Rust takes by default, on the device cpu. Each round has Rust, Python,
-Python and Rust make the mesh and free it. Prints the medians and the median of the rounds' ratios.
-Then eight threads make the meshes of eight cloths, each with about an eighth of the ends. Last comes the time of `import texere`
-after `import numpy`, in processes of their own.
+Python and Rust make the mesh and free it. Prints the medians and the median of the rounds' ratios,
+then the least times and their ratio. Then eight threads make the meshes of eight cloths, each cloth
+with about an eighth of the ends. Last comes the time of `import texere` after `import numpy`, in
+processes of their own.
 """
 
 import statistics
@@ -66,7 +67,7 @@ def compare(name, program, cloths, rounds):
 
             return seconds(work)
 
-        # The first meshes touch memory that later ones have again.
+        # The first meshes are not counted: they touch memory that later meshes use again.
         by_rust(), by_python()
         times = {"rust": [], "python": []}
         ratios = []

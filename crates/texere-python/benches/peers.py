@@ -5,8 +5,8 @@
 
 The cloth is a plain weave of N ends and N picks, round yarns of 0.2 mm, 0.5 mm apart. texere and
 TexGen make its mesh from the definition. trimesh and pyvista make tubes round texere's centrelines,
-sampled as texere samples them, so theirs is the meshing alone. Prints a row for each package: the
-best of several runs, seconds; triangles; millions of triangles a second.
+sampled as texere samples them, so their time is that of the meshing alone. Prints a row for each
+package: the best of several runs, seconds; triangles; millions of triangles a second.
 """
 
 import contextlib
@@ -50,7 +50,7 @@ def by_texere(count):
 
 @contextlib.contextmanager
 def silent():
-    """TexGen writes a line for each yarn to the process's own standard output."""
+    """Drops what the process writes to its standard output: TexGen writes a line for each yarn."""
     kept, null = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     os.dup2(null, 1)
     try:

@@ -17,13 +17,13 @@ use crate::watch::Run;
 #[pyclass(frozen, module = "texere")]
 #[derive(Debug)]
 pub(crate) struct Contact {
-    /// How near: 1 where they just touch.
+    /// How near the two yarns come: 1 where they just touch, less where they pierce.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().clearance().worst[0].ratio > 0.5
     /// True
     #[pyo3(get)]
     ratio: f64,
-    /// Where, mm.
+    /// The point half way between the two centrelines, mm.
     ///
     /// >>> len(texere.read("designs/poplin.toml").placed().clearance().worst[0].position)
     /// 3
@@ -55,7 +55,8 @@ pub(crate) struct Clearance {
 }
 
 impl Clearance {
-    /// Measures it, as the yarns are drawn with the settings that suit them.
+    /// Measures the clearance of the cloth's yarns, as they are drawn with the settings that suit
+    /// them.
     pub(crate) fn new(cloth: &texere::Cloth, run: &Run) -> Result<Self, Refusal> {
         let settings = Settings::of(cloth.yarns());
         Ok(Self { clearance: cloth.clearance(&settings, |share| run.tell(share))? })
@@ -64,8 +65,8 @@ impl Clearance {
 
 #[pymethods]
 impl Clearance {
-    /// How near yarns come at the least: 1 where they just touch. Infinite where none come near,
-    /// NaN where all places are crowded.
+    /// How near yarns come at the least: 1 where they just touch. Infinite if no yarns come near
+    /// one another, and NaN if all places where they do are too crowded to be measured.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().clearance().least < 0.9
     /// True
@@ -83,7 +84,7 @@ impl Clearance {
         self.clearance.contacts
     }
 
-    /// How many of the contacts are nearer than 1 by more than 0.001.
+    /// How many of the contacts have a ratio below 1 by more than 0.001.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().clearance().below_one > 0
     /// True
@@ -131,8 +132,8 @@ pub(crate) struct Diagnosis {
     report: CheckReport,
 }
 
-/// The share by which yarns may come short of touching and still count as touching, as in `texere
-/// check`.
+/// The share by which a clearance may be below 1 before yarns count as piercing: the usual one of
+/// `texere check`.
 const ACCURACY: f64 = 0.015;
 
 /// The share of the progress that measuring takes. The rest of it is for finding cures.
@@ -146,7 +147,7 @@ impl Diagnosis {
         let settling = SettlingReport::new(cloth, device);
         let mut report = CheckReport::new(cloth, settling, ACCURACY, &settings, clearance);
         if report.verdict().is_some() {
-            // Where a run is stopped its exception comes in place of the cures found so far.
+            // If the run is stopped, its exception is raised, and the cures found so far are lost.
             let device = texere::open("cpu").map_err(FinishError::from)?;
             report.find_cures(cloth, &*device, |share| run.tell(MEASURED + (1.0 - MEASURED) * share))?;
         }
@@ -185,8 +186,8 @@ impl Diagnosis {
         self.report.lines()
     }
 
-    /// All of it by name, as ``texere check --json`` prints it; docs/INSPECT.md says what each
-    /// entry is. Returns a copy.
+    /// The whole diagnosis by name, as ``texere check --json`` prints it; docs/INSPECT.md says what
+    /// each entry is. Returns a copy.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().diagnosis.as_dict()["clean"]
     /// False

@@ -29,9 +29,9 @@ use crate::{device, mesh, peers, pick, picture, watch, yarns};
 #[derive(Debug)]
 pub(crate) struct Cloth {
     pub(crate) cloth: Arc<texere::Cloth>,
-    /// The name of the device on which it came to rest.
+    /// The name of the device on which the cloth came to rest; empty for cloth that is placed.
     device: String,
-    /// Made for the first ray.
+    /// Finds what rays hit. It is made for the first ray.
     picker: OnceLock<Picker>,
     /// What the last picture was made of.
     scene: Kept,
@@ -59,10 +59,10 @@ impl Cloth {
 
     /// The tubes of the yarns, as triangles.
     ///
-    /// ``sides`` is the corners of a section, ``subdivisions`` the rings between two control
-    /// points: without them, what ``texere mesh`` takes for these yarns. ``caps`` closes the ends
-    /// of yarns. ``device`` is a name of :func:`texere.devices`, or ``auto`` for the best one.
-    /// Ctrl-C ends the call.
+    /// ``sides`` is the number of corners of a section, ``subdivisions`` the number of rings
+    /// between two control points. If they are left out, they are what ``texere mesh`` takes for
+    /// these yarns. ``caps`` closes the ends of yarns. ``device`` is a name of
+    /// :func:`texere.devices`, or ``auto`` for the best one. Ctrl-C ends the call.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> cloth.mesh(sides=8, device="cpu")
@@ -88,19 +88,19 @@ impl Cloth {
     /// >>> cloth.measures.warp_crimp > 0
     /// True
     ///
-    /// Raises :class:`texere.Error` where they can't be taken.
+    /// Raises :class:`texere.Error` if the measures can't be taken.
     #[getter]
     fn measures(&self, py: Python<'_>) -> PyResult<Measures> {
         watch::quietly(py, |_| Measures::new(&self.cloth))
     }
 
-    /// What is wrong with the cloth, where, and what would cure it. Its time grows with the cloth,
-    /// so keep what it gives.
+    /// What is wrong with the cloth, where, and what would cure it. The larger the cloth, the
+    /// longer the check takes, so keep the result.
     ///
     /// >>> texere.read("designs/poplin.toml").placed().diagnosis.is_clean
     /// False
     ///
-    /// Raises :class:`texere.Error` where it can't be measured.
+    /// Raises :class:`texere.Error` if the cloth can't be measured.
     #[getter]
     fn diagnosis(&self, py: Python<'_>) -> PyResult<Diagnosis> {
         watch::quietly(py, |run| Diagnosis::new(&self.cloth, &self.device, run))
@@ -111,13 +111,14 @@ impl Cloth {
     /// >>> texere.read("designs/poplin.toml").placed().clearance().least < 0.9
     /// True
     ///
-    /// Raises :class:`texere.Error` where it can't be measured.
+    /// Raises :class:`texere.Error` if the cloth can't be measured.
     fn clearance(&self, py: Python<'_>) -> PyResult<Clearance> {
         watch::quietly(py, |run| Clearance::new(&self.cloth, run))
     }
 
     /// The first place on a yarn that a ray hits, or None. ``ray`` has the shape (2, 3): its origin
-    /// and its direction, mm; copied. The first ray makes what later ones are found with.
+    /// and its direction, mm; copied. The first call builds a tree of boxes round the yarns, which
+    /// later calls search, too.
     ///
     /// >>> hit = texere.read("designs/plain.toml").placed().pick([[20.3, 15.7, 9], [0, 0, -1]])
     /// >>> assert hit is not None
@@ -151,15 +152,16 @@ impl Cloth {
         Editing::new(py, &self.cloth, device)
     }
 
-    /// Writes the cloth by the ending of the path: ``.glb``, ``.ply``, ``.stl`` and ``.obj``, its
-    /// mesh as :meth:`mesh` makes it, piece by piece in bounded memory; ``.yarns``, its yarns to
-    /// the bit; ``.bcc`` and ``.usda``, their centrelines as curves. The file appears whole or not
-    /// at all, and replaces no file of the design. ``packed`` halves the vertices of a
-    /// ``.glb``, with whole numbers: positions are off by 1/131068 of the largest side of the
-    /// yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about half of that,
-    /// for readers that know the extension ``EXT_meshopt_compression``; ``compressed="khr"``
-    /// compresses further, for those that know ``KHR_meshopt_compression``. ``instanced`` and
-    /// ``attributes`` are those of :meth:`Mesh.write`.
+    /// Writes the cloth. The ending of the path says what the file holds: ``.glb``, ``.ply``,
+    /// ``.stl`` and ``.obj`` the mesh as :meth:`mesh` makes it; ``.yarns`` the yarns to the bit;
+    /// ``.bcc`` and ``.usda`` the centrelines of the yarns as curves. A mesh is made and written
+    /// piece by piece, in bounded memory. The file appears whole or not at all, and replaces no
+    /// file of the design. ``packed`` writes a ``.glb`` with half the bytes for a vertex, as whole
+    /// numbers: positions are off by at most 1/131068 of the largest side of the yarn's box.
+    /// ``compressed`` packs a ``.glb`` and compresses it to about half of its bytes, for readers
+    /// that know the extension ``EXT_meshopt_compression``; ``compressed="khr"`` compresses
+    /// further, for those that know ``KHR_meshopt_compression``. ``instanced`` and ``attributes``
+    /// are those of :meth:`Mesh.write`.
     /// ``linear`` writes a ``.usda`` of straight lines between control points, with thickness and
     /// mass, for simulators that read no other curves. ``triangles`` writes a ``.usda`` of meshes,
     /// one for each yarn, instead of curves.
@@ -169,9 +171,9 @@ impl Cloth {
     /// >>> texere.read("designs/plain.toml").placed().write(file, device="cpu")
     ///
     /// Raises :class:`texere.Error` for another ending, a device that fails, and a file that can't
-    /// be written, packed, compressed or instanced or can't hold the attributes; ValueError for one
-    /// that is to be several of packed, compressed, instanced and linear, for an unknown extension,
-    /// and for an unknown attribute.
+    /// be written, packed, compressed or instanced or can't hold the attributes; ValueError for a
+    /// file that is to be several of packed, compressed, instanced and linear, for an unknown value
+    /// of ``compressed``, and for an unknown attribute.
     #[pyo3(signature = (path, *, packed=false, compressed=Compressed::No, instanced=false, attributes=Vec::new(), linear=false, triangles=false, device="auto"), text_signature = "($self, path, *, packed=False, compressed=False, instanced=False, attributes=[], linear=False, triangles=False, device='auto')")]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn write(
@@ -204,16 +206,19 @@ impl Cloth {
     /// A picture of the cloth: uint8 of shape (height, width, 3), sRGB, rows from the top; the
     /// array owns its memory; no copy is made of it.
     ///
-    /// ``size`` is width and height, pixels. ``view`` is ``face``, ``back``, ``oblique`` (turned by
-    /// ``turn``, radians), ``close-up``, ``cut-warp`` and ``cut-weft`` (``width_mm`` of the cloth
-    /// round the point ``at``), or ``eye`` (``eye`` is the eye, the point that it looks at, and
-    /// what is up in the picture, mm; ``field_of_view`` from the lower to the upper edge, radians).
-    /// ``background`` is ``ground``, a colour, or ``nothing``: then the picture has a fourth
-    /// channel, alpha. ``supersampling`` is the pixels that are drawn for each, each way, with four
-    /// samples each. ``hairs`` are fibres that stand off yarns. ``device`` is one of ``wgpu``.
+    /// ``size`` is width and height, pixels. ``view`` is ``face``, ``back``, ``oblique``,
+    /// ``close-up``, ``cut-warp``, ``cut-weft`` or ``eye``. ``turn`` turns the oblique view,
+    /// radians. Close-ups and cuts show ``width_mm`` of the cloth round the point ``at``. For the
+    /// view ``eye`` the argument ``eye`` has the eye and the point that it looks at, mm, and the
+    /// direction that is up in the picture; ``field_of_view`` is the angle from the lower to the
+    /// upper edge, radians. ``background`` is ``ground``, a colour, or ``nothing``: then the
+    /// picture has a fourth channel, alpha. The picture is made from one that is ``supersampling``
+    /// times as wide and as high, with four samples in each pixel. ``hairs`` says whether fibres
+    /// that stand off yarns are drawn. ``device`` is ``auto`` or a device of ``wgpu``, such as
+    /// ``wgpu:0``.
     ///
-    /// With ``layers`` it gives a dict of arrays: ``color`` is the picture, and beside it what was
-    /// asked for. A pixel counts as its first sample does.
+    /// With ``layers`` the call gives a dict of arrays: ``color``, which is the picture, and the
+    /// layers that were asked for. In a layer each pixel has the value of one of its samples.
     ///
     /// - ``depth``: float32 of (height, width), the distance along the pixel's line of sight, mm,
     ///   from the eye, or from a plane before the cloth where lines of sight are parallel. Infinite
@@ -223,12 +228,12 @@ impl Cloth {
     ///   the unit normal, in the coordinates of the cloth.
     /// - ``tangent``: the direction of the fibres along the surface, which turn with the twist.
     /// - ``uv``: float32 of (height, width, 2): the angle round the yarn, radians, and the distance
-    ///   along it in rings of the picture's own mesh, modulo 8192, in eighths.
+    ///   along it, modulo 8192, in rings of the picture's own mesh, in steps of an eighth.
     /// - ``crossing``: int32 of (height, width, 2), counted from 0. In woven cloth the end and the
     ///   pick that cross nearest along the yarn that the pixel shows; in a knit the wale and the
-    ///   course of the stitch that the yarn makes there. It is the place that :meth:`pick` names,
-    ///   where names count from 1. Both are -1 where there is no yarn, at a yarn's end beyond the
-    ///   last crossing, in a turn of the weft, and where a yarn of a knit floats.
+    ///   course of the stitch that the yarn makes there. The numbers are those that :meth:`pick`
+    ///   names, less 1, because names count from 1. Both are -1 where there is no yarn, at a yarn's
+    ///   end beyond the last crossing, in a turn of the weft, and where a yarn of a knit floats.
     ///
     /// >>> cloth = texere.read("designs/plain.toml").placed()
     /// >>> shown = cloth.picture(size=(80, 60), layers=["yarn", "depth"])

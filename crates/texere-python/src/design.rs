@@ -125,10 +125,11 @@ impl Design {
     /// 0 to 10, 1 in relaxed cloth; ``calender``, 0 to 10, how strongly the cloth is pressed flat;
     /// ``stretch``, ``("warp", 1.1)`` to make the cloth 1.1 times as long along its warp, 0.5 to 2.
     /// For knits: ``press_mm``, the distance of two plates, 0.001 to 1000 mm; ``loop_length``, 0.5
-    /// to 2 times the length of yarn that is placed; ``rest``, ``"clear"`` to let yarns move until
-    /// none pierces another, in ``passes`` at most, 1 to 1000000, or ``"energy"`` to let them move
-    /// until bending and contact have the least energy, which gives the knit its gauge. A knit that
-    /// is pressed, or whose lengths are free, can't rest by its energy.
+    /// to 2 times the length of yarn that is placed; ``rest``, ``"clear"`` or ``"energy"``. With
+    /// ``"clear"`` yarns move until none pierces another, in at most ``passes`` passes, 1 to
+    /// 1000000, of each of the two forms of settling. With ``"energy"`` yarns move until bending
+    /// and contact have the least energy, which gives the knit its gauge. A knit that is pressed,
+    /// or whose lengths are free, can't rest by its energy.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True
@@ -223,9 +224,10 @@ impl Design {
     }
 
     /// Lets a knit come to rest by its energy, then holds it at each of ``strains`` and measures
-    /// how it pulls. ``along`` is ``courses`` (it gets wider, its height is free), ``wales``
-    /// (longer) or ``both``. ``strains`` rise, -0.5 to 5, and are shares of its size at rest.
-    /// Forces grow in proportion to the bending stiffness of the yarns.
+    /// how it pulls. ``along`` is ``courses`` (the knit gets wider, and its height is free),
+    /// ``wales`` (the knit gets longer, and its width is free) or ``both``. ``strains`` are shares
+    /// of the size at rest, -0.5 to 5, each greater than the one before. Forces grow in proportion
+    /// to the bending stiffness of the yarns.
     ///
     /// ``device`` and ``progress`` are those of :meth:`rest`. The CPU does the work if ``device``
     /// can't.
@@ -296,8 +298,8 @@ impl Design {
     }
 }
 
-/// Does `work` on the device of a name, or on the CPU if the device can't let yarns come to rest as
-/// `by` says. Its progress is shown after the text `what`.
+/// Does `work` on the device that is called `name`, or on the CPU if that device can't let yarns
+/// come to rest as `by` says. The progress of `work` is shown after the text `what`.
 fn on_device<T: Send>(
     py: Python<'_>,
     (by, name): (RestBy, &str),

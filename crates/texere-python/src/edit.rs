@@ -17,8 +17,8 @@ use crate::yarn::srgb;
 use crate::yarns::{Yarns, points_of};
 use crate::{device, watch};
 
-/// Cloth that is edited: :meth:`texere.Cloth.edit` makes it. The cloth that it is made of stays as
-/// it is. One thread at a time may use it.
+/// Cloth that is edited: :meth:`texere.Cloth.edit` makes it of a :class:`texere.Cloth`, which stays
+/// as it is. One thread at a time may use the edited cloth.
 ///
 /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
 /// >>> hit = live.pick([[20.3, 15.7, 9], [0, 0, -1]])
@@ -33,7 +33,7 @@ use crate::{device, watch};
 #[pyclass(frozen, module = "texere", name = "Live")]
 #[derive(Debug)]
 pub(crate) struct Editing {
-    /// The cloth, and whether `changes` has given all changes up to an update.
+    /// The cloth, and whether the caller of `changes` knows all changes up to the last call.
     live: Mutex<(Live, bool)>,
     /// The cloth before all edits.
     cloth: Arc<texere::Cloth>,
@@ -46,7 +46,7 @@ impl Editing {
         let live = watch::quietly(py, |_| {
             let (structure, yarns) = (&cloth.design().structure, cloth.yarns());
             let usual = settings(yarns, None, None, false);
-            // The indices of its mesh never leave the device.
+            // No indices are read from this mesh, so the device writes none.
             let settings = Settings { topology: Topology::Shared, ..usual };
             if !matches!(structure, Structure::Woven(_)) {
                 return Live::given(opened, yarns.clone(), settings);
@@ -69,7 +69,8 @@ impl Editing {
         self.watched(py, |live, _, _| work(live))
     }
 
-    /// [`Self::alone`], where `work` also gets whether all changes are known, and its run.
+    /// Does `work` as [`Self::alone`] does. `work` also gets whether all changes are known, and the
+    /// [`Run`] that it tells its progress to.
     fn watched<T: Send>(
         &self,
         py: Python<'_>,
@@ -90,7 +91,7 @@ impl Editing {
 #[pymethods]
 impl Editing {
     /// Puts the warp up or down where an end and a pick cross, both counted from 0. Both threads
-    /// are laid anew, as they are woven and not at rest.
+    /// then lie as the structure places them, even if they were at rest before.
     ///
     /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
     /// >>> live.set_lift(0, 0, True)
@@ -199,8 +200,9 @@ impl Editing {
     /// without arguments, to the bit. Colours don't count. The call copies vertices from the
     /// device.
     ///
-    /// None says that everything counts as changed: take :meth:`mesh`. It comes at the first call,
-    /// and after a yarn has outgrown the room that is kept for it.
+    /// None says that everything counts as changed: take :meth:`mesh`. The first call gives None.
+    /// So does a call after a yarn has outgrown the room that is kept for it, and one after a call
+    /// that failed or was stopped.
     ///
     /// >>> live = texere.read("designs/plain.toml").placed().edit(device="cpu")
     /// >>> mesh = live.mesh()

@@ -33,7 +33,7 @@ pub(crate) fn complete(py: Python<'_>) -> PyResult<()> {
     class.setattr("causes", pyo3::types::PyTuple::empty(py))
 }
 
-/// The exception of an error of the facade.
+/// The exception of an error of the crate `texere`.
 pub(crate) fn raised(py: Python<'_>, error: &(dyn StdError + 'static)) -> PyErr {
     let causes = successors(Some(error), |error: &&(dyn StdError + 'static)| (*error).source());
     let causes: Vec<_> = causes.map(ToString::to_string).collect();
@@ -53,7 +53,7 @@ pub(crate) fn raised(py: Python<'_>, error: &(dyn StdError + 'static)) -> PyErr 
     }
 }
 
-/// Errors of the facade as exceptions.
+/// Errors of the crate `texere` as exceptions.
 pub(crate) trait Raise<T> {
     /// The value, or the exception.
     fn raise(self, py: Python<'_>) -> PyResult<T>;

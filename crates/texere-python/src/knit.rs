@@ -12,7 +12,7 @@ use crate::error::Raise;
 use crate::woven::choice;
 use crate::yarn::Bobbins;
 
-/// How many control points a stitch has.
+/// The values of the argument `cells`, which sets the number of control points of a stitch.
 const CELLS: [(&str, Cells); 2] = [("round", Cells::Round), ("even", Cells::Even)];
 
 /// A weft knit from a chart.
@@ -23,8 +23,8 @@ const CELLS: [(&str, Cells); 2] = [("round", Cells::Round), ("even", Cells::Even
 /// sequence of them; ``turn`` has the number of each course's yarn, in turn from the first course
 /// on, copied. ``wale_mm`` and ``course_mm`` are the distances of wales and courses. ``copies`` are
 /// those of the repeat along courses and wales. ``loop_length_mm`` is the length of yarn in a loop
-/// that settling aims for; None leaves it to the loops. ``cells`` is ``round`` or ``even`` (equally
-/// many control points for each stitch).
+/// that settling aims for; with None loops may get any length. ``cells`` is ``round`` or ``even``
+/// (equally many control points for each stitch).
 ///
 /// >>> wool = texere.Yarn(diameter_mm=0.3)
 /// >>> rib = texere.weft_knit("kp", wool, wale_mm=1.5, course_mm=1.0, copies=(4, 6))
@@ -139,10 +139,11 @@ fn laps(value: &Bound<'_, PyAny>) -> PyResult<Chain> {
 
 /// A warp knit from its guide bars.
 ///
-/// ``bars`` are the :class:`texere.Bar` from the front one on, ``yarns`` what their threadings
-/// refer to: a :class:`texere.Yarn` or a sequence of them. ``wales`` and ``courses`` are multiples
-/// of those after which all bars begin again; ``copies`` are those of the whole along courses and
-/// wales. ``wale_mm``, ``course_mm`` and ``cells`` are as in :func:`texere.weft_knit`.
+/// ``bars`` are the :class:`texere.Bar` from the front one on. ``yarns`` are the yarns that
+/// threadings refer to: a :class:`texere.Yarn` or a sequence of them. ``wales`` and ``courses`` are
+/// the size of one piece. They are multiples of the numbers of wales and of courses after which all
+/// bars begin again. ``copies`` are the numbers of such pieces along courses and wales.
+/// ``wale_mm``, ``course_mm`` and ``cells`` are as in :func:`texere.weft_knit`.
 ///
 /// >>> locknit = texere.warp_knit(
 /// ...     [texere.Bar("1-0/2-3//"), texere.Bar("1-2/1-0//")], texere.Yarn(diameter_mm=0.1),

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Measures of a cloth. What a cloth does not have, or what is not known of it, is NaN; a number of
-/// loops, wales or courses is 0.
+/// Measures of a cloth. A measure that the cloth does not have, or that is not known, is NaN.
+/// Numbers of loops, wales and courses are 0 instead.
 ///
 /// >>> measures = texere.read("designs/plain.toml").placed().measures
 /// >>> round(measures.width_mm, 1), measures.loops
@@ -144,7 +144,7 @@ impl Measures {
         known(self.measures.cover.map(|cover| cover.cloth))
     }
 
-    /// Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. None
+    /// Peirce's cover factor of the warp: ends to the inch over the root of the cotton count. NaN
     /// of a knit, and unless every material that is used has a tex.
     ///
     /// >>> texere.read("designs/plain.toml").placed().measures.warp_cover_factor > 0

@@ -32,7 +32,7 @@ pub(crate) struct Mesh {
     yarns: Shared,
     settings: Settings,
     device: Arc<dyn Backend>,
-    /// Made when they are first asked for.
+    /// The attributes of all vertices, made when they are first asked for.
     attributes: OnceLock<Vec<Attribute>>,
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn settings(
 }
 
 impl Mesh {
-    /// Makes the mesh of `yarns` on the device of a name.
+    /// Makes the mesh of `yarns` on the device that is called `device`.
     pub(crate) fn make(py: Python<'_>, yarns: &Shared, settings: Settings, device: &str) -> PyResult<Self> {
         let device = watch::quietly(py, |_| device::open(device))?;
         let vertices = pipeline(yarns, settings).plan().raise(py)?.counts().vertices;
@@ -88,7 +88,7 @@ pub(crate) fn followed<'a>(pipeline: Pipeline<'a>, run: &'a Run) -> Pipeline<'a>
     pipeline.progress(|done| run.tell(done.rings as f64 / done.total.max(1) as f64))
 }
 
-/// A column of vertices or attributes, each of six numbers of four bytes.
+/// How many numbers of four bytes a vertex or an attribute has.
 const WORDS: usize = 6;
 
 #[pymethods]
@@ -196,24 +196,25 @@ impl Mesh {
     }
 
     /// Writes the mesh as a ``.glb``, ``.ply``, ``.stl``, ``.obj`` or ``.usda`` file, which appears
-    /// whole or not at all. It is made again while it is written, piece by piece. ``packed`` halves
-    /// the vertices of a ``.glb``, with whole numbers: positions are off by 1/131068 of the largest
-    /// side of the yarn's box at most. ``compressed`` packs a ``.glb`` and compresses it to about
-    /// half of that, for readers that know the extension ``EXT_meshopt_compression``;
-    /// ``compressed="khr"`` compresses further, for those that know ``KHR_meshopt_compression``.
-    /// ``instanced`` writes a ``.glb`` that holds each part of a yarn once, as long as 16 control
-    /// points or a cap, for readers that know ``EXT_mesh_gpu_instancing``.
-    /// ``attributes`` are further numbers of the vertices of a ``.glb``, a ``.ply`` or a ``.usda``:
-    /// of ``uv``, the share of a turn round the yarn and the mm along it; ``tangent``, the
-    /// direction along the yarn; ``yarn``, the yarn's number.
+    /// whole or not at all. The mesh is made again while it is written, piece by piece. ``packed``
+    /// writes a ``.glb`` with half the bytes for a vertex, as whole numbers: positions are off by
+    /// at most 1/131068 of the largest side of the yarn's box. ``compressed`` packs a ``.glb`` and
+    /// compresses it to about half of its bytes, for readers that know the extension
+    /// ``EXT_meshopt_compression``; ``compressed="khr"`` compresses further, for those that know
+    /// ``KHR_meshopt_compression``. ``instanced`` writes a ``.glb`` that holds equal parts of yarns
+    /// only once, for readers that know ``EXT_mesh_gpu_instancing``. A part is as long as 16
+    /// control points, or is a cap. ``attributes`` names further numbers of the vertices of a
+    /// ``.glb``, a ``.ply`` or a ``.usda``: ``uv``, the share of a turn round the yarn and the mm
+    /// along it; ``tangent``, the direction along the yarn; ``yarn``, the yarn's number.
     ///
     /// >>> import tempfile, pathlib
     /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "yarn.ply"
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu").write(file)
     ///
     /// Raises :class:`texere.Error` for another ending, and for a file that can't be written,
-    /// packed, compressed or instanced or can't hold the attributes; ValueError for one that is to
-    /// be several of the three, for an unknown extension and for an unknown attribute.
+    /// packed, compressed or instanced or can't hold the attributes; ValueError for a file that is
+    /// to be several of packed, compressed and instanced, for an unknown value of ``compressed``
+    /// and for an unknown attribute.
     #[pyo3(signature = (path, *, packed=false, compressed=Compressed::No, instanced=false, attributes=Vec::new()), text_signature = "($self, path, *, packed=False, compressed=False, instanced=False, attributes=[])")]
     fn write(
         &self,
@@ -256,7 +257,7 @@ impl Mesh {
     }
 
     /// Shows the mesh in a window of pyvista, or in a notebook. ``options`` are those of pyvista's
-    /// ``Plotter.show``, and what that gives is given back.
+    /// ``Plotter.show``. Returns what ``Plotter.show`` returns.
     ///
     /// >>> mesh = texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).mesh(device="cpu")
     /// >>> mesh.show() # doctest: +SKIP

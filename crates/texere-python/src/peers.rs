@@ -28,8 +28,8 @@ pub(crate) fn trimesh<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny
     mesh.py().import("trimesh")?.call_method("Trimesh", (), Some(&arrays))
 }
 
-/// A `pyvista.PolyData` with the vertices of a mesh, and its normals, yarns and colours as data of
-/// points.
+/// A `pyvista.PolyData` with the vertices of a mesh. Its normals, yarns, texture coordinates (`uv`)
+/// and colours are data of points.
 pub(crate) fn pyvista<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny>> {
     let class = mesh.py().import("pyvista")?.getattr("PolyData")?;
     let (positions, indices) = (mesh.getattr("positions")?, mesh.getattr("indices")?);

@@ -1,4 +1,4 @@
-//! Tests of strain: how a knit pulls when it is held longer than it is at rest.
+//! Tests of strain: how a knit pulls when it is held at another size than its size at rest.
 
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -6,8 +6,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use texere::rest::{Along, StrainState};
 
-/// A knit at rest, and strained: see :meth:`Design.test`. States rise with the strain, and the
-/// state at rest is one of them.
+/// A knit at rest, and strained: see :meth:`Design.test`. The states are in the order of their
+/// strains, and the state at rest is one of them.
 ///
 /// >>> texere.read("designs/jersey.toml").test("wales", [0.05, 0.1])
 /// <texere.StrainTest along wales, 3 states>
@@ -42,7 +42,7 @@ impl StrainTest {
     }
 }
 
-/// The way of this name.
+/// The [`Along`] that is called `name`.
 ///
 /// **Errors**: `ValueError` if there is none.
 pub(crate) fn along(name: &str) -> PyResult<Along> {
@@ -52,7 +52,7 @@ pub(crate) fn along(name: &str) -> PyResult<Along> {
 
 #[pymethods]
 impl StrainTest {
-    /// ``courses``, ``wales`` or ``both``.
+    /// The directions in which the knit was strained: ``courses``, ``wales`` or ``both``.
     ///
     /// >>> texere.read("designs/jersey.toml").test("both", [0.1]).along
     /// 'both'
@@ -89,8 +89,8 @@ impl StrainTest {
         self.pairs(py, |state| state.strain)
     }
 
-    /// The force of each state along the courses and along the wales for each mm of the strained
-    /// cloth across it, N/mm: float64 of shape (states, 2). Returns a copy.
+    /// The force of each state along the courses and along the wales, N/mm: for each mm that the
+    /// strained cloth measures across the force. float64 of shape (states, 2). Returns a copy.
     ///
     /// >>> force = texere.read("designs/jersey.toml").test("courses", [0.1]).force
     /// >>> bool(force[1, 0] > 100 * abs(force[1, 1]))
@@ -129,8 +129,9 @@ impl StrainTest {
         self.each(py, |state| state.balanced)
     }
 
-    /// The strain at which the force per width first reaches ``force``, N/mm, between the states on
-    /// a straight line; along both ways, that along the courses. None if no state reaches it.
+    /// The strain at which the force per width first reaches ``force``, N/mm. Between two states
+    /// the force is taken to change linearly. In a test along ``both``, force and strain are those
+    /// along the courses. None if no state reaches the force.
     ///
     /// >>> test = texere.read("designs/jersey.toml").test("courses", [0.1])
     /// >>> strain = test.strain_at(test.force[1, 0] / 2)
@@ -141,7 +142,7 @@ impl StrainTest {
     }
 
     /// The tangent modulus at a strain, N/mm: by how much the force per width grows with the
-    /// strain. It needs three states, and is None beyond them.
+    /// strain. None if there are fewer than three states, or if the strain lies outside of them.
     ///
     /// >>> modulus = texere.read("designs/jersey.toml").test("courses", [0.05, 0.1]).modulus_at(0)
     /// >>> modulus is not None and modulus > 0

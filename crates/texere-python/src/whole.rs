@@ -2,8 +2,9 @@
 //!
 //! Where a mesh is cut into chunks within a yarn, the ring at the cut belongs to both chunks, with
 //! equal bits. Each chunk is written over the end of the one before, so that the ring is there
-//! once, and no vertex is moved afterwards. The device writes no indices: their pattern is copied
-//! with each draw's first vertex added, which takes as long as writing them.
+//! once, and no vertex of a tube is moved afterwards. Vertices of caps are kept apart, and come
+//! last. The device writes no indices: the host copies their pattern and adds each draw's first
+//! vertex, which takes as long as writing them.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -17,21 +17,24 @@ use texere::yarn::{
 /// 255, sRGB. ``section`` is ``"circle"``, ``("ellipse", aspect)``, ``("lenticular", aspect,
 /// distortion)``, ``("power-ellipse", aspect, exponent)``, ``("lobed", plies)`` or ``("lobed",
 /// plies, valley)``, where the valley between two plies lies 0.5 to 1 times as far from the axis as
-/// a ply reaches. ``flatness`` (width over height in the cloth, 0.1 to 10), ``stiffness`` (0.01 to
-/// 100, 1 for cotton) and ``firmness`` (how firmly the section keeps its shape at rest, 0.01 to
-/// 100, 1 for cotton of ordinary twist; if it is not given, it follows from ``twist_per_m``, where
-/// this is given) count in woven cloth alone, as does ``packing``, the largest share of its section
-/// that the fibre of a squeezed yarn fills, up to 0.91. ``bending_stiffness``, 1e-9 to 1e6 N mm²,
-/// counts in knits that rest by their energy; if it is not given, it follows from ``fibre`` and
-/// ``tex``. ``fibre`` is ``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``, ``"silk"``,
-/// ``"viscose"`` or ``"wool"``. ``hairiness``, 0 to 30, is the H of Uster testers; pictures show
-/// it.
+/// a ply reaches. ``fibre`` is ``"cotton"``, ``"linen"``, ``"nylon"``, ``"polyester"``,
+/// ``"silk"``, ``"viscose"`` or ``"wool"``. ``hairiness``, 0 to 30, is the H of Uster testers;
+/// pictures show it.
+///
+/// Four arguments count in woven cloth alone. ``flatness`` is the width over the height in the
+/// cloth, 0.1 to 10. ``stiffness`` is 0.01 to 100, 1 for cotton. ``firmness`` is how firmly the
+/// section keeps its shape at rest, 0.01 to 100, 1 for cotton of ordinary twist. If ``firmness`` is
+/// not given, it follows from ``twist_per_m``, or is 1 without ``twist_per_m``. ``packing`` is the
+/// largest share of a squeezed yarn's section that fibre fills, 0.1 to 0.91.
+///
+/// ``bending_stiffness``, 1e-9 to 1e6 N mm², counts in knits that rest by their energy. If it is
+/// not given, it follows from ``fibre`` and ``tex``.
 ///
 /// >>> texere.Yarn(tex=50, color="#2b3f6b", twist_per_m=500)
 /// <texere.Yarn 'yarn', 0.265 mm>
 ///
-/// Raises ValueError if the colour, the section or the thickness is not valid. Limits are checked
-/// when cloth is made of the yarn.
+/// Raises ValueError if the colour, the section, the thickness, ``fibre`` or ``packing`` is not
+/// valid. All other limits are checked when cloth is made of the yarn.
 #[pyclass(frozen, module = "texere", name = "Yarn")]
 #[derive(Debug)]
 pub(crate) struct YarnSpec {

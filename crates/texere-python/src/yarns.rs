@@ -24,7 +24,7 @@ use crate::{mesh, watch};
 pub(crate) enum Shared {
     /// The yarns of a cloth.
     Cloth(Arc<texere::Cloth>),
-    /// Yarns of their own.
+    /// Yarns that belong to no cloth.
     Own(Arc<texere::Yarns>),
 }
 
@@ -59,17 +59,19 @@ pub(crate) struct Yarns {
 /// >>> len(texere.read_yarns(file))
 /// 1
 ///
-/// Raises :class:`texere.Error`, with the file, for one that holds no yarns.
+/// Raises :class:`texere.Error` for a file that holds no yarns. The error's ``file`` is the path.
 #[pyfunction]
 pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::yarns(path))?.yarns))
 }
 
-/// Reads curves that another program wrote, in a BCC file (``.bcc``), as polylines of an OBJ file
-/// (``.obj``) or in the text form of USD (``.usda``): round yarns. Yarns of TexGen (``.tg3``) have
-/// their sections. Files of USD and TexGen say their unit and widths. For other files
-/// ``diameter_mm`` has to be given, and ``unit_mm``, the length of the unit, is 1 if left out. If
-/// they are given for a file that says them, they count instead of what it says. A unit of 1 mm
+/// Reads curves that another program wrote. The file is a BCC file (``.bcc``), an OBJ file with
+/// polylines (``.obj``), the text form of USD (``.usda``) or a file of TexGen (``.tg3``). Yarns of
+/// TexGen have their sections. All other curves become round yarns.
+///
+/// ``unit_mm`` is the length of the file's unit, ``diameter_mm`` the diameter of all yarns. If they
+/// are left out, files of TexGen and USD say their unit and widths. Other files have a unit of 1 mm
+/// and need ``diameter_mm``. An argument that is given replaces what the file says. A unit of 1 mm
 /// keeps coordinates to the bit.
 ///
 /// >>> import tempfile, pathlib
@@ -78,8 +80,8 @@ pub(crate) fn read_yarns(py: Python<'_>, path: PathBuf) -> PyResult<Yarns> {
 /// >>> texere.read_curves(file, diameter_mm=0.2).points.tolist()
 /// [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 ///
-/// Raises :class:`texere.Error`, with the file, for one that holds no curves, and for coordinates
-/// or a diameter out of range.
+/// Raises :class:`texere.Error` for a file that holds no curves or needs a diameter, and for
+/// coordinates or a diameter out of range.
 #[pyfunction]
 #[pyo3(signature = (path, *, diameter_mm=None, unit_mm=None))]
 pub(crate) fn read_curves(
@@ -92,10 +94,10 @@ pub(crate) fn read_curves(
     Ok(Yarns::own(watch::quietly(py, |_| texere::read::curves(path, scale))?))
 }
 
-/// Whether the ending of a path is that of a mesh, and not that of yarns or curves. One that stands
-/// for both is that of a mesh if `triangles` are asked for.
+/// Whether the ending of a path stands for a mesh, and not for yarns or curves. An ending that can
+/// stand for a mesh and for curves stands for a mesh if `triangles` are asked for.
 ///
-/// **Errors**: [`Error`] for an ending of none of them, and for triangles in a file of no mesh.
+/// **Errors**: [`Error`] for any other ending, and for triangles in a file that can hold no mesh.
 pub(crate) fn is_mesh(path: &Path, triangles: bool) -> PyResult<bool> {
     let is_curves = CurveFormat::from_path(path).is_ok();
     match Format::from_path(path) {
@@ -215,8 +217,8 @@ impl Yarns {
         unsafe { view(slf.as_any(), bits.slice(s![.., 6..])) }?.call_method1("view", ("float16",))
     }
 
-    /// Where in the points each yarn begins, and at the end their number: uint64 of yarns + 1. Does
-    /// not copy.
+    /// Where in the points each yarn begins, and at the end the number of points: uint64, one more
+    /// than there are yarns. Does not copy.
     ///
     /// >>> texere.Yarns.from_arrays([[0, 0, 0], [1, 0, 0]], 0.1).offsets.tolist()
     /// [0, 2]

@@ -70,7 +70,7 @@ def test_cloths_of_the_same_yarns_share_them():
 
 @pytest.mark.skipif(not pathlib.Path("/proc/self/clear_refs").exists(), reason="the peak is read in /proc")
 def test_arrays_take_no_memory():
-    """The peak of memory while all arrays of a mesh are taken and read, in a process of its own."""
+    """The peak of memory while large arrays are taken and read, in a process of its own."""
     program = textwrap.dedent("""
         import re, numpy, texere
         def peak(name):
@@ -140,7 +140,7 @@ def sequence(seed):
 
 
 def test_a_thousand_sequences_of_freeing_are_clean():
-    """In four threads at once, and objects of one thread are freed by another."""
+    """Four threads run the sequences at once. Objects of one thread are freed by another."""
     failures, passed_on = [], []
     lock = threading.Lock()
 

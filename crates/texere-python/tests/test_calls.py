@@ -68,7 +68,11 @@ def whole():
 
 @pytest.fixture
 def ctrl_c():
-    """Has Ctrl-C raise KeyboardInterrupt. Python goes on ignoring it if it was started so, as a script's background is."""
+    """Lets Ctrl-C raise KeyboardInterrupt.
+
+    If Ctrl-C was ignored when Python was started, as it is for the background jobs of a shell
+    script, Python goes on ignoring it.
+    """
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

@@ -24,7 +24,7 @@ def test_crossings_are_those_of_the_drawdown():
     assert crossing.shape == (280, 360, 2) and crossing.dtype == np.int32
     assert (crossing[yarns < 0] == NONE).all()
     x, y = shown["position"][..., 0] / pitch, shown["position"][..., 1] / pitch
-    # Within a quarter of a pitch of a crossing's middle, where the thread above hides the other.
+    # Within 0.18 of a pitch of a crossing's middle, where the thread above hides the other.
     at = np.stack([x, y], axis=-1)
     middle = (yarns >= 0) & (np.abs(at - np.floor(at) - 0.5) < 0.18).all(axis=-1)
     end, pick = np.floor(x[middle]).astype(int), np.floor(y[middle]).astype(int)
@@ -49,7 +49,7 @@ def test_crossings_are_those_of_the_drawdown():
     "design, at", [("herringbone.wif", (60, 96)), ("jersey.toml", (9, 9)), ("locknit.toml", (7, 7))]
 )
 def test_a_pixel_has_the_place_that_a_ray_picks(design, at):
-    """Rays go through the picker, which counts no rings."""
+    """The picker finds the place that a ray hits without the ring numbers of pictures."""
     cloth = texere.read(f"designs/{design}").placed()
     shown = look(cloth, (48, 36), view="close-up", at=at, width_mm=5)
     crossing, known, hits = shown["crossing"], 0, 0
@@ -66,7 +66,8 @@ def test_a_pixel_has_the_place_that_a_ray_picks(design, at):
             continue
         end = f"end {first} at pick {second}", f"pick {second} at end {first}"
         known += name.startswith(end) or f"wale {first}, course {second}" in name
-    # The ray goes through a pixel's middle, where its first sample is not.
+    # A position lies in its pixel's middle, but has the depth of the pixel's first sample, which
+    # lies elsewhere. Some rays through positions therefore hit other places.
     assert hits > 300 and known > 0.9 * hits, (known, hits)
 
 
@@ -88,7 +89,7 @@ def test_stitches_are_those_of_the_chart():
 
 
 def test_a_long_yarn_counts_rings_beyond_8192():
-    """Beyond this number rings are counted from 0 again."""
+    """Pictures count a yarn's rings from 0 again after 8192. Crossings are right beyond it, too."""
     up = np.arange(800 * 3).reshape(3, 800) % 2 == 0
     thin = texere.Yarn(diameter_mm=0.1, twist_per_m=900)
     cloth = texere.woven(up, thin, thin, warp_mm=0.5, weft_mm=0.5).placed()

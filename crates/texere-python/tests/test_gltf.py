@@ -190,7 +190,7 @@ def test_attributes_are_valid_and_those_of_the_mesh(tmp_path, opened, design, op
     assert (rings["tangents"][:, :, 3] == -1.0).all()
     normals = normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
     assert numpy.abs((tangents * normals).sum(axis=1)).max() < 0.03
-    # What is left of a yarn's direction on its surface.
+    # The part of a yarn's direction that lies along its surface.
     right = mesh.tangents - normals * (mesh.tangents * normals).sum(axis=1, keepdims=True)
     right /= numpy.linalg.norm(right, axis=1, keepdims=True)
     tangents = tangents / numpy.linalg.norm(tangents, axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""Inputs that no cloth can be: an exception names them, and nothing panics."""
+"""Invalid inputs: each raises an exception of an expected type, and nothing panics."""
 
 import itertools
 
@@ -185,7 +185,7 @@ def test_what_no_cloth_can_be_is_refused(what):
 
 
 def test_arrays_of_any_layout_and_type_are_taken():
-    """Transposed, reversed, strided, unaligned, swapped and Fortran arrays of all whole numbers."""
+    """Arrays are taken in any layout and byte order, and of several types of numbers."""
     up = texere.weave("herringbone 2/2(16)", 24, 20)
     known = woven(up, warp_mm=0.5).placed().yarns.points.tobytes()
     wide = np.zeros((20, 48), bool)

@@ -69,7 +69,7 @@ def test_a_yarn_that_outgrows_its_room_changes_everything():
 
 
 def test_an_edit_that_bends_sharply_keeps_the_rings():
-    """The rings of the cloth before the edit, not those that suit the yarns after it."""
+    """The mesh keeps the rings of the cloth before the edit, even if others would suit it now."""
     yarn = texere.Yarn(tex=30, twist_per_m=900)
     cloth = texere.woven(texere.weave("plain", 6, 6), yarn, yarn, warp_mm=0.5, weft_mm=0.5).placed()
     live = cloth.edit(device="cpu")

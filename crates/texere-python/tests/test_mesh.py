@@ -1,4 +1,4 @@
-"""Meshes are those of the ``texere`` program, to the bit, and arrays are views of them."""
+"""Meshes are those of the ``texere`` program, to the bit, and their arrays fit the yarns."""
 
 import os
 import pathlib

@@ -77,7 +77,7 @@ def test_pyvista_takes_the_mesh():
 
 
 def test_show_gives_pyvista_the_mesh(monkeypatch):
-    """A window needs a screen, so its plotter is replaced."""
+    """A window needs a screen, so pyvista's plotter is replaced."""
     import pyvista
 
     told = []

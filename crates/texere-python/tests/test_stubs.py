@@ -19,7 +19,7 @@ def run(*args):
 
 
 def test_the_stubs_are_those_of_the_module(tmp_path):
-    # Python calls `__new__` of the classes of Rust; what it makes of them itself is not in stubs.
+    # PyO3 gives the module of Rust an `__all__`, which is not in the stubs.
     allowed = tmp_path / "allowed"
     allowed.write_text("texere._texere.__all__\n")
     run("-m", "mypy.stubtest", "texere", "--allowlist", str(allowed), "--ignore-unused-allowlist")

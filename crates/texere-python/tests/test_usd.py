@@ -23,7 +23,7 @@ def curves_of(path):
     assert UsdGeom.GetStageMetersPerUnit(stage) == 0.001
     assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z
     assert stage.GetDefaultPrim().IsValid()
-    # The stage closes with the last value.
+    # The generator keeps the stage open until the last value has been taken.
     yield from (UsdGeom.BasisCurves(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.BasisCurves))
 
 

@@ -25,8 +25,8 @@ pub struct Layers {
     pub size: [u32; 2],
     /// The number of the yarn, counted from 0.
     pub yarn: Vec<u32>,
-    /// The distance along the pixel's line of sight ([`Camera::ray`]), from where the line begins,
-    /// mm.
+    /// The distance along a line of sight ([`Camera::ray`]), from where the line begins, mm. The
+    /// line goes through the middle of the screen pixel that holds the sample.
     pub depth: Vec<f32>,
     /// The place on the yarn's surface, mm.
     pub position: Vec<[f32; 3]>,
@@ -40,7 +40,8 @@ pub struct Layers {
     /// The place on the yarn: the angle round it and the distance along it. The angle is in
     /// radians, and counted as in [`Attribute::angle`](texere_core::Attribute). The distance is in
     /// rings of the scene's mesh, in steps of an eighth of a ring, and begins again at 0 after
-    /// 8,192 rings. Both are 0 on single fibres, on caps, and where a yarn is cut open.
+    /// 8,192 rings. Both are 0 on single fibres and on caps. Where a yarn is cut open, they are the
+    /// place on its far wall.
     pub uv: Vec<[f32; 2]>,
 }
 

@@ -39,9 +39,9 @@ impl Camera {
     }
 
     /// The line of sight through a point of the picture, in pixels from the picture's left and
-    /// upper edges. The middle of a pixel is at a half. The line begins at the eye or, if lines of
-    /// sight are parallel, before the cloth, and its direction has length 1. A picker finds the
-    /// triangle that the line hits.
+    /// upper edges. The middle of a pixel is at a half. The line begins at the eye. If lines of
+    /// sight are parallel, it begins before the cloth, and in a cut ([`Camera::cut`]) in the cut's
+    /// plane. Its direction has length 1. A picker finds the triangle that the line hits.
     #[must_use]
     pub fn ray(&self, [x, y]: [f32; 2]) -> Ray {
         let [width, height] = self.size().map(f64::from);
@@ -77,8 +77,8 @@ impl Camera {
         }
     }
 
-    /// How far before the target the cloth begins and ends, as the eye sees it, mm. The nearer
-    /// distance comes first.
+    /// How far before the target the cloth begins and ends, as the eye sees it, mm. The side of the
+    /// cloth that is nearer to the eye comes first.
     fn depths(&self) -> [f64; 2] {
         let depths = self.extent.corners().map(|corner| (corner - self.target).dot(self.toward));
         let (far, near) =

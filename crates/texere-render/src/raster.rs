@@ -40,7 +40,8 @@ const BLOCKS_MOST: u64 = 1 << 20;
 /// The bytes of a ring's roll and lean.
 const ROLL_BYTES: u64 = 8;
 
-/// The bytes of a block in the three lists of `Listed`. The three counts have as many.
+/// The bytes of a block in the three lists of `Listed` in `fabric.wgsl`. The three counts of the
+/// lists take as many bytes together.
 const LISTED_BYTES: u64 = 12;
 
 /// The bytes of the three numbers of workgroups of one indirect dispatch.

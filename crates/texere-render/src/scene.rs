@@ -370,8 +370,9 @@ impl Scene {
         Ok(())
     }
 
-    /// Draws all chunks, then does what comes `after`. Returns when all chunks were drawn. After an
-    /// error, [`Scene::seen_at`] finds nothing at any point, since the picture is not finished.
+    /// Draws all chunks, then does what comes `after`. Returns the time at which all chunks were
+    /// drawn. After an error, [`Scene::seen_at`] finds nothing at any point, since the picture is
+    /// not finished.
     pub(crate) fn drawn(
         &mut self,
         watch: &mut Watch<'_>,

@@ -10,7 +10,7 @@ use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 use crate::mapped::read_mapped;
 
 /// The number of samples of a pixel. They lie where the rasterisers of all devices have four
-/// samples.
+/// samples, but are shifted in each pixel if threads are less than four pixels wide.
 pub(crate) const SAMPLES: u32 = 4;
 
 /// `SCREEN_GROUP` of `view.wgsl`.

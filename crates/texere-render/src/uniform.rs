@@ -1,4 +1,4 @@
-//! The uniforms of shaders: the view, and the look of each yarn.
+//! The structs that shaders read: the view, and the look of each yarn.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -126,8 +126,8 @@ fn key_light(camera: &Camera, up: Vec3) -> Vec3 {
 }
 
 /// The width of the highlight on a yarn, radians: the standard deviation of the directions in which
-/// its fibres lie along the surface. A yarn without twist is filament, smooth as silk, and a
-/// twisted yarn spun staple.
+/// its fibres lie along the surface. A yarn without twist counts as filament, which is smooth as
+/// silk. A twisted yarn counts as spun from staple fibre.
 ///
 /// **Source**: widths are of the order that Sadeghi et al. 2013 measured on silk and on linen.
 #[must_use]

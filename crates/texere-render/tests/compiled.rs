@@ -24,7 +24,8 @@ fn yarns() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// A test for all: another test in this process would compile shaders of its own meanwhile.
+/// This is the only test of its file, because another test in this process would compile shaders of
+/// its own meanwhile.
 #[test]
 fn nothing_is_compiled_twice() {
     let renderer = Renderer::new(WgpuBackend::open(0, Schedule::PerRing).unwrap()).unwrap();
@@ -40,7 +41,7 @@ fn nothing_is_compiled_twice() {
     (0..3).for_each(|_| round());
     let before = pieces();
     (0..20).for_each(|_| round());
-    // With parameters in uniforms, Mesa's software device had compiled 97 pieces more. The
-    // allowance is for whatever a driver does once, after a while.
+    // When shaders read parameters from uniforms, Mesa's software device compiled 97 pieces more.
+    // The allowance is for whatever a driver does once, after a while.
     assert!(pieces() < before + 10, "{before} pieces of compiled code have become {}", pieces());
 }

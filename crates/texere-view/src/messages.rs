@@ -54,7 +54,8 @@ pub(crate) enum News {
     Cloth(Box<Cloth>),
     /// Yarns are settling, and this share of the work is done.
     Settling(f64),
-    /// Settling has ended. The text says how.
+    /// Settling has ended. The text says how. It is empty if settling was stopped for an order or
+    /// for a changed file.
     Settled(String),
     Event(Event),
 }

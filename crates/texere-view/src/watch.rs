@@ -1,4 +1,4 @@
-//! Files of a design that may change under the window.
+//! The files of a design, which may change while the window shows the design.
 
 use std::fs;
 use std::path::{Path, PathBuf};

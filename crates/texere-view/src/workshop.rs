@@ -251,8 +251,8 @@ impl Workshop {
         order
     }
 
-    /// Lets the yarns come to rest until an order comes, which is put into `order`, a file changes,
-    /// or the window is closed.
+    /// Lets the yarns come to rest. Stops early if an order comes, if a file changes, or if the
+    /// window is closed. An order that comes is put into `order`.
     fn at_rest(&mut self, order: &mut Option<Order>) -> Result<texere::Cloth, Refusal> {
         let mut design = self.design.clone();
         design.settle = true;

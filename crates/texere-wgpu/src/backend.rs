@@ -206,7 +206,8 @@ impl WgpuBackend {
     /// every ten milliseconds. Returns whether the submission is done. If it is not, the device
     /// goes on with it.
     ///
-    /// **Errors**: those of [`WgpuBackend::wait`].
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after four minutes. In
+    /// the last two of these minutes `goes_on` is not called.
     pub fn wait_while(
         &self,
         submission: &wgpu::SubmissionIndex,

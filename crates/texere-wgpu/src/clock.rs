@@ -154,8 +154,8 @@ impl Clock {
         *total += time;
     }
 
-    /// Waits for all launches, and returns their times. If the device is lost, these are the times
-    /// of the launches before.
+    /// Waits for all launches, and returns their times. If the device is lost, returns the times of
+    /// the launches that ended before the loss.
     pub(crate) fn totals(&mut self, gpu: &Gpu) -> StageTimings {
         for launch in std::mem::take(&mut self.pending) {
             if self.finish(gpu, launch).is_err() {

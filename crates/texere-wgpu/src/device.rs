@@ -19,8 +19,8 @@ pub const LONG_ATOMICS: Features = Features::SHADER_INT64.union(Features::SHADER
 /// ends.
 ///
 /// NVIDIA's driver crashes if adapters are listed, or its libEGL is unloaded, in two threads at
-/// once. When `tests/leaning.rs` opened and dropped devices in several threads, the process crashed
-/// in four of six runs.
+/// once. When `tests/tests/leaning.rs` opened and dropped devices in several threads, the process
+/// crashed in four of six runs.
 pub(crate) fn adapters() -> &'static [wgpu::Adapter] {
     static ADAPTERS: OnceLock<(wgpu::Instance, Vec<wgpu::Adapter>)> = OnceLock::new();
     let (_, adapters) = ADAPTERS.get_or_init(|| {

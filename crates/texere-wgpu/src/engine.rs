@@ -211,8 +211,9 @@ impl WgpuEngine {
                 self.load(slot, &chunk)?;
             }
             self.check_loaded(slot, &chunk)?;
-            // The row of a repeated ring has no steps, so 0 is written for a block. That block is
-            // the next chunk's first block, and the next chunk overwrites the 0 later.
+            // A chunk that ends inside a yarn has a last row for the next chunk's first ring. This
+            // row has no steps, so 0 is written for the next chunk's first block. The next chunk
+            // overwrites the 0.
             self.run(slot, Timed::Scan, &[(of_blocks, self.memory(slot).rows)])?;
             last = Some((slot, chunk));
         }

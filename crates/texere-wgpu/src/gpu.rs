@@ -20,7 +20,7 @@ const ASKED: Duration = Duration::from_millis(10);
 const SLEEP_LEAST: Duration = Duration::from_micros(20);
 
 /// Every buffer's length is a multiple of this number of bytes, which is the size of the widest
-/// element of a shader's array.
+/// vector in a shader's array.
 const BUFFER_STEP: u64 = 16;
 
 /// A device and its queue.
@@ -162,7 +162,8 @@ impl Gpu {
     /// Waits until `submission` is done, or until `goes_on` returns false. `goes_on` is called
     /// every ten milliseconds. Returns whether the submission is done.
     ///
-    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after four minutes. In
+    /// the last two of these minutes `goes_on` is not called.
     pub(crate) fn wait_while(
         &self,
         submission: &SubmissionIndex,

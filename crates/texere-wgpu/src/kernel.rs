@@ -134,23 +134,23 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     // - Indices into buffers come from the block and cap tables and from the plan's own tables.
     //   Only a plan makes chunks, and a session accepts the chunks of its own plan alone. The
     //   plan's tables are bound whole, and every output is at least as long as the chunk says.
-    //   Lengths along yarns have one value for each of the plan's blocks, attributes and packed
-    //   vertices one for each of the chunk's vertices.
+    //   Lengths along yarns have one value for each of the plan's blocks. Attributes and packed
+    //   vertices have one for each of the chunk's vertices.
     // - Indices into workgroup memory are below BLOCK_RINGS or the workgroup's size: a block has at
     //   most BLOCK_RINGS rings.
     // - Loops run over the counts of a row or of `Params`, upwards in steps above zero, so they
     //   end.
-    // - Divisors are `subdivisions + 1`, `sides`, at least 3, a lane's share `across`, at least 1
-    //   since a ring has at least 5 stores, and constants above zero; a yarn's `rings - 1` divides
-    //   as a float only.
+    // - Divisors are `subdivisions + 1`; `sides`, which is at least 3; a lane's share `across`,
+    //   which is at least 1, since a ring has at least 5 stores; and constants above zero. A yarn's
+    //   `rings - 1` divides as a float only.
     // In the shaders of settling:
     // - Places, yarns and chords come from the tables of a settling's plan, which are bound whole,
     //   as is every buffer with a value for each of them. An interval's place has one place before
     //   it and two behind it. A number that a shader has written (of a cell, of a place in a cell,
     //   of a neighbour, or of a list's end) is below the length of what it indexes, or is compared
     //   with that length before it is used.
-    // - Loops run up to a count, to a place in a list, which is below its buffer's length, or over
-    //   halves of a workgroup.
+    // - Loops run up to a count, up to a place in a list, or over halves of a workgroup. A place in
+    //   a list is below the length of the list's buffer.
     // - Divisors of whole numbers are a cell's size and the counts of cells, which the host makes
     //   at least 1, and the repeat, if there is one.
     // In the shaders of crossings:
@@ -158,6 +158,6 @@ fn trusted_module(gpu: &Gpu, shader: &Shader, flattened: bool) -> wgpu::ShaderMo
     //   of ends, and its pick less than the number of picks. The plan's tables are bound whole, as
     //   is every buffer with a value for each crossing. There is a row for each pass number that
     //   the host uses.
-    // - Whole numbers are divided by the ends, at least 2, and by constants.
+    // - Whole numbers are divided by the number of ends, which is at least 2, and by constants.
     unsafe { gpu.device.create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked()) }
 }

@@ -9,13 +9,14 @@ use wgpu::{BufferBindingType, BufferUsages, Device, DeviceType};
 /// The usages of a buffer of parameters.
 pub const PARAMETERS: BufferUsages = BufferUsages::UNIFORM.union(BufferUsages::STORAGE);
 
-/// The most buffers that a shader of texere binds, with its parameters: those of pictures.
+/// The most buffers that a shader of texere binds, its parameters included. Shaders of pictures
+/// bind the most.
 const BUFFERS_MOST: u32 = 12;
 
-/// A WGSL shader for `device`: `source` itself, or on a software device `source` with storage that
-/// is only read instead of uniforms. The buffers need the usages [`PARAMETERS`]. A software device
-/// that binds too few buffers for that keeps its uniforms, such as one that was opened with wgpu's
-/// default limits.
+/// A WGSL shader for `device`. It is `source` itself, or on a software device `source` with
+/// read-only storage in place of its uniforms. The buffers need the usages [`PARAMETERS`]. Uniforms
+/// stay on a software device that binds too few storage buffers, such as one that was opened with
+/// wgpu's default limits.
 #[doc(hidden)]
 #[must_use]
 pub fn with_parameters(device: &Device, source: String) -> String {

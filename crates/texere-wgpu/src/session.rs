@@ -92,9 +92,9 @@ impl WgpuSession {
 
     /// Bytes of device memory that the session holds. In the schedule per-ring they are the buffers
     /// of [`device_buffers`](texere_gpu::device_buffers), each rounded up to a multiple of 16
-    /// bytes, and the rings, packed vertices and attributes if [`Session::trajectory`],
-    /// [`Session::packed`] and [`Session::attributes`] were called. The memory that wgpu maps for
-    /// transfers is not counted.
+    /// bytes, and the results of [`Session::trajectory`], [`Session::packed`] and
+    /// [`Session::attributes`], if these were called. Attributes bring the lengths along yarns. The
+    /// memory that wgpu maps for transfers is not counted.
     #[must_use]
     pub fn device_bytes(&self) -> u64 {
         self.0.engine().device_bytes()

@@ -107,9 +107,9 @@ fn a_callers_device_of_too_narrow_limits_is_refused_with_the_drivers_log() {
     assert!(log.contains("max_storage_buffers_per_shader_stage") || log.contains("storage buffers"), "{log}");
 }
 
-/// Tests the results of calls after the device is lost. At least one of the calls says that it is
-/// lost. The others succeed or say so, too, or refuse a call whose stage has not run. No call may
-/// panic, nor may the drop at the end.
+/// Tests the results of calls after the device is lost. At least one of the calls reports the loss.
+/// Each other call succeeds, reports the loss, too, or is refused because the stage that it depends
+/// on has not run. No call may panic, nor may the drop at the end.
 fn assert_lost(mut session: WgpuSession, yarns: &texere_core::Yarns, chunk: &texere_core::backend::Chunk) {
     let errors = [
         session.upload(0, yarns.points()),

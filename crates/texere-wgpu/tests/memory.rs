@@ -16,8 +16,8 @@ const BESIDES: [&str; 3] = ["parameters", "timestamps", "readback"];
 /// The length of every buffer is a multiple of this, bytes.
 const STEP: u64 = 16;
 
-/// The bytes that a driver may add to a buffer to align it. A buffer that holds nothing is no
-/// longer than this, either.
+/// The most bytes that a driver may add to a buffer to align it. A buffer that holds nothing has at
+/// most as many bytes.
 const ALIGNED: u64 = 128;
 
 #[test]

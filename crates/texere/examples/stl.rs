@@ -1,4 +1,4 @@
-//! Writes an STL file, a format that texere does not have, piece by piece:
+//! Writes an STL file piece by piece, with a writer of the program's own:
 //! `cargo run --example stl`.
 
 use std::fs::File;

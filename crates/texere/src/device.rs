@@ -39,7 +39,7 @@ const PER_YARN: &str = "/per-yarn";
 /// The devices of this machine, and the families without one.
 #[derive(Debug)]
 pub struct Devices {
-    /// All devices that can be opened. CPU devices come last.
+    /// All devices that can be opened. texere's own CPU devices, `cpu` and `cpu-serial`, come last.
     pub found: Vec<DeviceInfo>,
     /// Families without a device, each with the reason.
     pub missing: Vec<(&'static str, BackendError)>,
@@ -122,8 +122,8 @@ pub fn open(name: &str) -> Result<Box<dyn Backend>, BackendError> {
     }
 }
 
-/// The device that stands in for `device` where it can't let yarns come to rest in this way: all
-/// cores of the CPU. None if `device` can.
+/// The device on which yarns come to rest as `rest` says if `device` can't do that: all cores of
+/// the CPU. None if `device` can.
 ///
 /// ```
 /// use texere::rest::{RestBy, stand_in};

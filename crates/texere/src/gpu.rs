@@ -4,8 +4,8 @@
 //! | to | use |
 //! |---|---|
 //! | make meshes on a program's own device | `WgpuBackend::from_device` |
-//! | draw a mesh that lies on the device | `draw`, with `VERTEX_LAYOUT`, `PACKED_LAYOUT`, `ATTRIBUTE_LAYOUT` for the pipeline |
-//! | unpack vertices of 12 bytes in a shader | `UNPACK` |
+//! | draw a mesh that lies on the device | `draw`, with `VERTEX_LAYOUT` and `ATTRIBUTE_LAYOUT` for the pipeline |
+//! | unpack vertices of 12 bytes in a shader | `UNPACK`, with `PACKED_LAYOUT` for the pipeline |
 //! | use the buffers of a mesh | `OpenClSession`, `WgpuSession`, `DeviceMesh` |
 //! | use the tables from which shaders make a chunk | `ChunkTables` |
 

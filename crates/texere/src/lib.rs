@@ -120,7 +120,7 @@
 //! # Threads
 //!
 //! texere works in the [rayon](https://docs.rs/rayon) pool of the calling thread, and starts no
-//! threads of its own. This is the global pool, or a pool of yours if you call from inside that
+//! threads of its own. The pool is the global one, or a pool of yours if you call from inside that
 //! pool. All calls work in the pool, uploads to a GPU too. Open devices inside the pool as well:
 //! the device `cpu` counts its threads when it is opened. Closures that report progress run on
 //! threads of the pool.

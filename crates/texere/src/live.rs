@@ -151,13 +151,15 @@ impl Live {
         }
     }
 
-    /// The mesh as of the last [`Live::update`]: its plan and its chunks.
+    /// The mesh on the device. An edit changes its plan and its chunks at once, and its buffers at
+    /// the next [`Live::update`].
     #[must_use]
     pub const fn mesh(&self) -> &LiveMesh {
         &self.mesh
     }
 
-    /// The mesh as of the last [`Live::update`], to read it.
+    /// The mesh on the device, to read it. After an edit the mesh can be read only once
+    /// [`Live::update`] was called.
     pub const fn mesh_mut(&mut self) -> &mut LiveMesh {
         &mut self.mesh
     }

@@ -6,8 +6,8 @@
 //!
 //! | to | use |
 //! |---|---|
-//! | write a mesh larger than memory | [`stream`], [`stream_to`]; with a plan that there is already [`run`], [`run_to`] |
-//! | write a mesh to memory, an archive, a connection | [`mesh_to`] |
+//! | write a mesh larger than memory | [`stream`], [`stream_to`]; for a plan that exists already [`run`], [`run_to`] |
+//! | write a mesh to memory, or to another writer that can seek | [`mesh_to`] |
 //! | write a smaller `.glb` file | [`Output::packed`], [`Output::compressed`]; of cloth that repeats [`Output::instanced`] |
 //! | give vertices texture coordinates, tangents or numbers of yarns | [`Output::attributes`], [`Format::with`] |
 //! | write curves for a simulator that reads straight lines alone | [`Output::linear`] |

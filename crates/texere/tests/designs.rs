@@ -10,8 +10,8 @@ use texere::{Structure, read};
 /// The most crossings of a design that comes to rest here. `damask.toml` has more.
 const CROSSINGS_MOST: usize = 20_000;
 
-/// Every section of every yarn, as it is drawn, keeps the area that its fibres need. The halves of
-/// control points are half floats, whose rounding is 1/2048.
+/// Every section of every yarn, as it is drawn, keeps the area that its fibres need. Half widths
+/// and half heights of control points are half floats, whose rounding is 1/2048.
 #[test]
 fn no_yarn_of_a_design_is_denser_than_its_fibres() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../designs");

@@ -124,7 +124,7 @@ fn plied_cloth_at_rest_is_live() {
     assert_eq!(lifted.yarn_points(3), rest.yarns.yarn_points(3));
     live.set_rest(&rest.yarns).unwrap();
     same(&live, &rest.yarns);
-    // A rest of other numbers of sections is none of this fabric.
+    // Yarns at rest with another number of sections are not those of this fabric.
     let other = woven(vec![Section::Circle; 2]).yarns().unwrap();
     let refused = live.set_rest(&other).unwrap_err().to_string();
     assert_eq!(refused, "24 yarns at rest of 2 sections are not the fabric's 24 of 1");

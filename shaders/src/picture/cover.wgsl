@@ -31,8 +31,8 @@ struct Corner {
 // REACHED.
 const BEYOND = 64u;
 
-// The point of clip space `clip` in screen space. Its x and y, divided by its w, are the distances
-// from the screen's middle to the right and down, in units of 1/256 pixel.
+// The point `clip` of clip space, converted to screen space. Its x and y, divided by its w, are the
+// distances from the screen's middle to the right and down, in units of 1/256 pixel.
 fn screen_of(clip: vec4<f32>) -> vec4<f32> {
     return clip * screen_scale();
 }
@@ -84,9 +84,10 @@ fn offer_at(x: i32, row: i32, depth: f32, triangle: u32) {
     offer(sample, ~bitcast<u32>(abs(depth)), ~triangle);
 }
 
-// The sizes of quads, as bits. A quad is NONE if it does not show or if its box meets no pixel of
-// the band, SMALL if the box meets at most two by two pixels, FEW if these pixels have about ALONE
-// samples or fewer, and otherwise MANY. A quad with a corner beyond REACHED is MANY.
+// The sizes of quads, as bits. The band is the rows of pixels that this sweep draws. A quad is NONE
+// if it does not show or if its box meets no pixel of the band, SMALL if the box meets at most two
+// by two pixels of the band, FEW if the pixels that it meets have about ALONE samples or fewer, and
+// otherwise MANY. A quad with a corner beyond REACHED is MANY.
 const NONE = 0u;
 const SMALL = 1u;
 const FEW = 2u;
@@ -172,9 +173,9 @@ fn near_box_of(p: vec2<f32>, q: vec2<f32>, r: vec2<f32>, s: vec2<f32>) -> QuadBo
     return QuadBox(least, most, first_pixel(least), last_pixel(most));
 }
 
-// A box with the pixels of a box that is 1/256 pixel larger each way. `raster_few` uses it to find
-// every quad that `raster` has left to it, even if a compiler rounds differently in the two passes.
-// A quad that both passes draw does no harm.
+// A box with the pixels of a box that is 1/256 pixel larger each way. With this wider box
+// `raster_few` finds every quad that `raster` has left over, even if a compiler rounds differently
+// in the two passes. A quad that both passes draw does no harm.
 fn wider(box: QuadBox) -> QuadBox {
     return QuadBox(box.least, box.most, first_pixel(box.least - 1), last_pixel(box.most + 1));
 }

@@ -75,7 +75,8 @@ fn box_of(first: u32) -> Box {
 
 // Whether all of the box lies beyond one side of the view.
 fn is_outside(bounds: Box) -> bool {
-    // The box may lie this far outside, because corners are rounded: two pixels, in clip space.
+    // A box counts as outside only if it lies further out than this, because corners are rounded:
+    // two pixels, in clip space.
     let spare = 4.0 / view.size;
     let top = 1.0 - 2.0 * f32(sweep.first_row) / view.size.y + spare.y;
     let bottom = 1.0 - 2.0 * f32(sweep.first_row + sweep.rows) / view.size.y - spare.y;

@@ -53,7 +53,8 @@ struct Coverage {
     depth: f32,
 }
 
-// The depth at a point, from twice the areas of q and r and of the whole triangle.
+// The depth at a point. `over_q` and `over_r` are twice the areas of the triangles between the
+// point and the edges opposite q and r, and `area` is twice the area of the whole triangle.
 fn depth_of(turned: Turned, over_q: f32, over_r: f32, area: f32) -> f32 {
     let share = 1.0 / area;
     return turned.p.depth
@@ -73,8 +74,8 @@ fn coverage_of(turned: Turned, place: vec2<i32>) -> Coverage {
     return Coverage(is_covered, depth_of(turned, f32(over_q), f32(over_r), f32(over_r + over_p + over_q)));
 }
 
-// Twice the area between `edge` and `to`, with its sign. It is exact for differences of 24 bits,
-// because it is worked out in parts of 12 bits.
+// Twice the area between `edge` and `to`, and its sign. The sign is exact for differences of 24
+// bits, because the area is worked out in parts of 12 bits. The value is rounded to a float.
 struct Area {
     sign: i32,
     value: f32,
@@ -206,8 +207,8 @@ struct Lanes {
     rows: i32,
 }
 
-// The part of a row of samples that may lie inside a triangle: from `x` to `y`, in units of 1/256
-// pixel right of the screen's middle.
+// The part of a row of samples that may lie inside a triangle. The result's x is the part's left
+// end and its y the right end, in units of 1/256 pixel right of the screen's middle.
 fn reach_in(turned: Turned, row: i32) -> vec2<f32> {
     // Samples with shifts lie anywhere in the row.
     let is_shifted = view.spread > 0.0;
@@ -258,9 +259,9 @@ fn draw_together(p: Corner, q: Corner, r: Corner, triangle: u32, lanes: Lanes) {
     }
 }
 
-// Draws a triangle that lies partly behind the eye, or far aside. It tests the whole screen against
-// edges in homogeneous coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
-// homogeneous coordinates").
+// Draws a triangle that lies partly behind the eye, or far aside. All samples of the rows that this
+// sweep draws are tested against edges in homogeneous coordinates (Olano and Greer 1997, "Triangle
+// scan conversion using 2D homogeneous coordinates").
 fn draw_beyond(p: vec4<f32>, q: vec4<f32>, r: vec4<f32>, triangle: u32, lane: u32, lanes: u32) {
     let samples = u32(view.size.x) * sweep.rows * 4u;
     for (var sample = lane; sample < samples; sample += lanes) {

@@ -60,7 +60,8 @@ fn sample_place(x: i32, row: i32) -> vec2<i32> {
     return pixel * 256 + sample_in(pixel, row & 3) - middle();
 }
 
-// The index of a sample's key, for the pixel at `x` and `row` rows below the first with keys.
+// The index of a sample's key. The pixel is number `x` in its row, and the row lies `row` rows
+// below the first row that has keys.
 fn key_at(x: u32, row: u32, sample: u32) -> u32 {
     return (row * u32(view.size.x) + x) * 4u + sample;
 }

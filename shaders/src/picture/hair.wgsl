@@ -14,11 +14,12 @@ const HAIR_LONGEST = 4.0;
 
 // Lengths are distributed exponentially (Barella and Manich 1993, "The hair-length distribution of
 // yarns, measured by means of the Zweigle G565 hairiness meter", for hairs up to 3 mm), with this
-// scale, mm. The scale is chosen, not measured: with it a fifth of the hairs of 1 mm reach 2 mm.
+// scale, mm. The scale is chosen, not measured: without the cut-off a fifth of the hairs of 1 mm
+// would reach 2 mm.
 const HAIR_SCALE = 0.6;
 
-// A fibre's width, mm: cotton is a ribbon of 12 to 20 micrometres, thinner the other way (Morton
-// and Hearle 2008, "Physical properties of textile fibres"), and seen from any side.
+// A fibre's width, mm. Cotton is a ribbon 12 to 20 micrometres wide, and thinner the other way
+// (Morton and Hearle 2008, "Physical properties of textile fibres"). A fibre is seen from any side.
 const HAIR_WIDTH = 0.012;
 
 struct Hair {
@@ -41,19 +42,20 @@ fn scrambled(x: u32) -> u32 {
     return mixed ^ (mixed >> 16u);
 }
 
-// Draw number `draw` of a hair: a number from 0 to just below 1.
+// Random number `draw` of a hair, from 0 to just below 1.
 fn drawn(seed: u32, draw: u32) -> f32 {
     return f32(scrambled(seed + draw * 2654435769u) >> 8u) / 16777216.0;
 }
 
-// The seed of a hair's draws. `ring` is the number in the yarn of the ring before the gap.
+// The seed of a hair's random numbers. The hair's gap follows ring `ring` of the yarn.
 fn seed_of(yarn: u32, ring: u32, hair: u32) -> u32 {
     return scrambled(scrambled(yarn * 2246822519u + ring) + hair * 3266489917u);
 }
 
 // The hair of a seed, between two rings. The hair starts on the drawn surface, and leaves it
-// forward or backward along the direction of the surface's fibres, which has the twist. Then it
-// bends at random and lies down. It never leads back through the plane that it left.
+// forward or backward along the direction of the surface's fibres, which follows the yarn's twist.
+// Then it bends at random and lies down. It never leads back through the surface's tangent plane at
+// its root.
 fn hair_new(seed: u32, outline: u32, here: Stance, next: Stance) -> Hair {
     let side = min(u32(drawn(seed, 0u) * f32(params.sides)), params.sides - 1u);
     let beside = side_beside(side);

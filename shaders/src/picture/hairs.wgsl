@@ -14,7 +14,8 @@ const DEEPEST = 0.99999994;
 // The number of hairs on each mm of each yarn.
 @group(1) @binding(6) var<storage, read> hair_density: array<f32>;
 
-// The hairs of a block: the gap of each between two rings, and its number in that gap.
+// The hairs of a block. Each entry is the number of the ring before the hair's gap, times
+// HAIRS_OF_GAP, plus the hair's number in the gap.
 var<workgroup> block_hairs: array<u32, BLOCK_RINGS * HAIRS_OF_GAP>;
 var<workgroup> hair_count: atomic<u32>;
 
@@ -64,7 +65,7 @@ fn draw_part(start: vec3<f32>, end: vec3<f32>, number: u32) {
     let first_row = max(i32(ceil((low - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * sweep.first_row));
     let end_row = min(i32(floor((high - f32(FIRST_SAMPLE_Y)) / f32(SAMPLE_ROW))), i32(4u * (sweep.first_row + sweep.rows)) - 1);
     for (var row = first_row; row <= end_row; row++) {
-        // Where along the part, from 0 to 1, it comes within reach of the row and leaves it again.
+        // The shares of the part, from 0 to 1, between which it lies within reach of the row.
         let down = f32(sample_place(0, row).y) - base.y;
         let shares = select(vec2(0.0, 1.0), (vec2(down) + vec2(-reach, reach)) / way.y, abs(way.y) > 1.0);
         let ends = way.x * clamp(shares, vec2(0.0), vec2(1.0));

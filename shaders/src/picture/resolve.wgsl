@@ -30,7 +30,7 @@ fn roll_of(chunk_ring: u32) -> vec2<u32> {
     return ring_rolls[chunk_ring];
 }
 
-// How the section stands on ring `ring` of a block, and on the ring after it.
+// How the section stands on a ring of a block, and on the ring after it.
 struct Stances {
     here: Stance,
     next: Stance,

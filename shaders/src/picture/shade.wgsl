@@ -1,6 +1,6 @@
 // Lights samples, and maps tones. This file follows view.wgsl, screen.wgsl and lit.wgsl, and the
 // constant FAR. FAR is true if everything that could take light from a place lies within one and a
-// half pixels of it, so that the screen does not show it.
+// half pixels of the place. The screen then does not show the loss of light.
 
 // Rust: texere_render's YarnLook, 32 bytes.
 struct YarnLook {
@@ -94,7 +94,7 @@ fn surroundings(normal: vec3<f32>) -> vec3<f32> {
     return mix(FLOOR, SKY, 0.5 + 0.5 * dot(normal, view.ground.xyz));
 }
 
-// The fill light, across from the key light and as high.
+// The direction to the fill light, across from the key light and a little higher.
 fn fill_direction() -> vec3<f32> {
     let up = view.ground.xyz;
     return normalize(2.0 * dot(view.light, up) * up - view.light + 0.3 * up);
@@ -109,8 +109,9 @@ fn shade_yarn(here: Surface, pixel: vec2<i32>, sample: i32, seen: vec2<f32>) -> 
     let fibre = from_octahedron(halves(textureLoad(directions, pixel, sample, 0).y));
     let eye = to_eye(here.local);
     if (number & CUT) != 0u {
-        // Fibres seen end on absorb the light that falls between them. Nothing lies in front of a
-        // cut's plane, and the depth kept is that of the yarn's far side, so there is no occlusion.
+        // Fibres seen end on absorb the light that falls between them. A view without ground is a
+        // cut. Nothing lies in front of the cut's plane, and the depth kept is that of the yarn's
+        // far side, so a cut has no occlusion.
         let open = select(seen.x, 1.0, view.has_ground == 0u);
         return look.color * (0.55 + 0.25 * max(dot(here.normal, view.light), 0.0)) * (0.4 + 0.6 * open);
     }

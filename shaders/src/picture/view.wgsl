@@ -56,11 +56,11 @@ const SAMPLE_X = 0xa020e060u;
 const SAMPLE_ROW = 64;
 const FIRST_SAMPLE_Y = 32;
 
-// The cyclic shift of the pattern in this pixel, and the further shift in each of its rows of
-// samples, 1/256 pixels. Threads finer than pixels would beat with a pattern that is the same
-// everywhere. For fine threads each pixel therefore has its own shift, a hash of its place, and
-// detail finer than samples comes out as fine grain (Cook 1986, "Stochastic sampling in computer
-// graphics").
+// The cyclic shifts of the pattern in this pixel, in units of 1/256 pixel: x to the right within
+// the pixel, y down within each row of samples. Threads finer than pixels would beat with a pattern
+// that is the same everywhere. For fine threads each pixel therefore has its own shifts, a hash of
+// its place, and detail finer than samples comes out as fine grain (Cook 1986, "Stochastic sampling
+// in computer graphics").
 fn shift_of(pixel: vec2<i32>) -> vec2<i32> {
     if view.spread == 0.0 {
         return vec2(0);

@@ -1,5 +1,6 @@
-//! Runs the README's five lines with a draft, and then every backend of the CPU, with every kind of
-//! vectors, on threads with little stack.
+//! Runs the README's five lines with a draft, and then every backend of the CPU on threads with
+//! little stack. The parallel backend runs once for each kind of vector instructions that the
+//! processor has.
 
 use std::error::Error;
 use std::thread;

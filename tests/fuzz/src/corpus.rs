@@ -70,7 +70,7 @@ pub(crate) const POLYLINES: &[&str] = &[
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nl 1/1 2/1 \\\n 3/1 1/1\n",
 ];
 
-/// USD files with curves of every basis and wrap.
+/// USD files with curves of every basis, and of every wrap but `pinned`.
 pub(crate) const STAGES: &[&str] = &[
     "#usda 1.0\n(\n    metersPerUnit = 0.001\n    upAxis = \"Z\"\n)\ndef Xform \"cloth\" (\n    kind = \"component\"\n)\n{\n\
      def BasisCurves \"a\" (\n    displayName = \"red \\\"\"\n)\n{\n    uniform token basis = \"catmullRom\"\n    int[] \

@@ -138,7 +138,7 @@ const STRETCHING: u32 = 100;
 const STRETCHED: f64 = 0.5;
 
 /// Begins to settle the cloth as its design says, if `depth` says so, and returns `outcome`. An
-/// error has to name the design's file, or the draft that it names.
+/// error has to name the design's file, or the draft that the design names.
 fn finished(design: &Design, outcome: Outcome, depth: Depth) -> Outcome {
     let points = || design.yarns().map_or(0, |yarns| yarns.points().len());
     if depth == Depth::Yarns || outcome != Outcome::Taken || !design.settle || points() > SETTLING_POINTS {
@@ -193,9 +193,9 @@ fn saved(path: &Path, depth: Depth) -> Outcome {
     meshed(&yarns, depth)
 }
 
-/// Whether `file` is the same as what texere writes for its yarns, `again`. The numbers of the
-/// valleys of plies may differ, since 0 and the number that it stands for mean the same, and so may
-/// the checksum then.
+/// Whether `file` equals `again`, which texere writes for the `yarns` of `file`. The number of a
+/// valley between plies may differ. texere writes 0 if nothing presses the plies, and the file may
+/// have the valley's own number, which means the same. The checksum may then differ, too.
 fn is_as_written(yarns: &Yarns, file: &[u8], again: &[u8]) -> bool {
     const CHECKSUM: usize = 4;
     let differ = |one: &[u8], other: &[u8]| one.iter().zip(other).filter(|(a, b)| a != b).count();

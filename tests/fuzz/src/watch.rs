@@ -11,8 +11,8 @@ use peak_alloc::PeakAlloc;
 use crate::{Depth, Input, Outcome, Reader, drive};
 
 /// Time that an input may take, so that only inputs that hang are caught. The slowest one, a denim
-/// with a weft of 3 mm that is to be stretched, takes some seconds. With 20 s it was taken to hang
-/// where other programs kept both cores busy.
+/// with a weft of 3 mm that is to be stretched, takes some seconds. With a limit of 20 s that input
+/// counted as hanging while other programs kept both cores busy.
 const LIMIT: Duration = Duration::from_secs(60);
 
 /// The most memory that the whole program may take while it handles an input, MiB.

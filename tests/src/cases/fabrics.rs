@@ -70,9 +70,9 @@ pub(super) fn standing() -> Yarns {
     yarns.build().unwrap()
 }
 
-/// Two yarns like `yarn` with another section, whose thickness varies along them: one of 66 points,
-/// which are more than a block has rings, and one of nine. `flatten` gives the width of each
-/// control point, by its number, divided by its height.
+/// Two yarns like `yarn`, but with the section `section` and with a thickness that varies along
+/// them. One yarn has 66 points, more than a block has rings. The other has nine. `flatten` gives
+/// the width of each control point, by its number, divided by its height.
 pub(super) fn couple(yarn: Yarn, section: Section, flatten: fn(u8) -> f32) -> Yarns {
     let mut yarns = Yarns::builder();
     let yarn = Yarn { section: yarns.section(section), ..yarn };

@@ -52,8 +52,8 @@ impl Counts {
         Self { subdivisions: (0..=8).collect(), sides: (3..=64).collect() }
     }
 
-    /// The least and the most, odd and even numbers, and powers of two, some of them with their
-    /// neighbours.
+    /// A few values of each factor: the least and the most, odd and even numbers, powers of two,
+    /// and numbers beside them.
     fn thinned() -> Self {
         Self { subdivisions: vec![0, 1, 2, 4, 8], sides: vec![3, 4, 5, 6, 7, 8, 16, 33, 64] }
     }
@@ -74,7 +74,8 @@ impl Counts {
         ]
     }
 
-    /// The case with the values of these numbers, one for each factor. Its name has all of them.
+    /// The case of `row`, which has the number of a value for each factor. The case's name begins
+    /// with `set` and has all values.
     fn case(&self, set: &str, row: &[usize]) -> Case {
         let &[subdivisions, sides, frame, section, end, caps, topology, twist, limit, flattening] = row
         else {

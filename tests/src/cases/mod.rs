@@ -133,7 +133,8 @@ fn each_shape() -> Vec<Case> {
         .collect()
 }
 
-/// All shapes in one fabric, through the range of each setting.
+/// All shapes in one fabric, with many values of sides, subdivisions and tension, and with every
+/// topology, capped and uncapped.
 fn settings_swept() -> Vec<Case> {
     let mut cases = Vec::new();
     for sides in [3, 4, 5, 7, 8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 48, 63, 64, 128, 192, 193, 255, 256] {
@@ -254,8 +255,8 @@ mod tests {
         assert_eq!(names.len(), cases.len());
     }
 
-    /// If a closed yarn's turn were near half a turn, rounding would decide in which direction it
-    /// is spread, and backends would disagree.
+    /// If a closed yarn's excess over whole turns were near half a turn, rounding would decide in
+    /// which direction the excess is spread, and backends would disagree.
     #[test]
     fn no_closed_yarn_is_near_half_a_turn_off() {
         for case in all() {

@@ -78,7 +78,7 @@ fn wave(k: f64) -> [f64; 3] {
     [k, 0.0, if (k as u32).is_multiple_of(2) { 0.25 } else { -0.25 }]
 }
 
-/// Courses of plain loops as one yarn, with twelve points a loop. Their legs are as steep as in a
+/// A course of plain loops, with twelve points a loop. The legs of the loops are as steep as in a
 /// knit.
 fn loops(k: f64) -> [f64; 3] {
     const HALF: [[f64; 3]; 7] = [
@@ -159,7 +159,7 @@ fn turning_back() -> Vec<Shape> {
         // At tension 0 the velocity vanishes half way between the middle points.
         open("cusp", listed(&[[-5.0, 2.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [6.0, 2.0, 0.0]])),
         // The yarn lies in a plane of constant x. Each point lies further on, but between the
-        // middle points the spline goes back for a while.
+        // second and the third point the spline goes back for a while.
         open(
             "back-stitch",
             listed(&[[0.5, 0.0, 0.0], [0.5, 1.0, 0.1], [0.5, 1.01, -0.1], [0.5, 2.01, 0.2], [0.5, 3.0, 0.0]]),

@@ -183,7 +183,7 @@ impl<'a> Assembly<'a> {
             let place = RingPlace { yarn: number as u64, ring: done as u64, point: None };
             report.note_count("rings", place, yarn.rings.len() as u64, done as u64);
         }
-        // A chunk holds the caps of its own yarns. In the whole output, caps follow all yarns.
+        // Caps come chunk by chunk. They are compared yarn by yarn, the start cap first.
         self.assembled.caps.sort_by_key(|cap| (cap.yarn, cap.end == End::Finish));
         let capped = |yarn: usize| self.oracle.settings.caps && !self.oracle.yarns[yarn].closed;
         let expected: Vec<_> = (0..self.oracle.yarns.len())

@@ -1,14 +1,15 @@
 //! Tolerances of the comparison. docs/TOLERANCES.md has the reasons for them.
 
-/// Distance by which a centre or a vertex may be off its place, in radii of the yarn.
+/// Distance by which a centre or a vertex may be off its place, as a share of the smaller of the
+/// ring's half width and half height.
 pub const POSITION: f64 = 1e-4;
 
 /// Further distance that is allowed, in units in the last place of the largest coordinate of the
 /// control points. Far from the origin, f32 has no finer digits.
 pub const COORDINATE_ULPS: f64 = 4.0;
 
-/// Angle by which a unit vector may be off its direction, rad. A radius may be off its length by
-/// the same number as a share.
+/// Angle by which a unit vector may be off its direction, rad. A half width or half height may be
+/// off by this share of itself, and a growth by this share of 1 plus the growth.
 pub const DIRECTION: f64 = 1e-4;
 
 /// Drift of the roll that is allowed for each ring, and for each radian of twist, from the yarn's

@@ -94,8 +94,8 @@ impl Expected for Oracle {
     }
 }
 
-/// The output of another backend as the reference. Values that no output has (the twist so far)
-/// come from the oracle.
+/// The output of another backend as the reference. Values that no output has, such as the twist so
+/// far, come from the oracle.
 struct Gold<'a> {
     oracle: &'a Oracle,
     output: &'a Assembled,
@@ -212,7 +212,7 @@ fn compare_ring(
     // Between two rings near the vertical, the upright frame may turn in either direction, and so
     // may a roll or a lean that is measured against it. Only the direction that frame and turn make
     // together is defined, and is compared. The roll of an upright yarn is compared by itself,
-    // except where it leans.
+    // unless the yarn leans.
     let roll = turns(actual.roll);
     let off = |turn: f64, [level, rising]: [DVec3; 2]| {
         let side = side(tangent, turn);

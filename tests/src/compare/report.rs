@@ -76,7 +76,7 @@ impl fmt::Display for Mismatch {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// Ring centres, in radii of the yarn.
+    /// Ring centres, as a share of the smaller of the ring's half width and half height.
     Centre,
     /// Half widths and half heights, relative.
     Half,
@@ -88,7 +88,7 @@ pub enum Quantity {
     Roll,
     /// Turn of the outline about the tangent, rad.
     Lean,
-    /// Vertex positions, in radii of the yarn.
+    /// Vertex positions, as a share of the smaller of the ring's half width and half height.
     Vertex,
     /// Vertex normals, rad.
     Normal,
@@ -107,8 +107,8 @@ impl Quantity {
         Self::Normal,
     ];
 
-    /// The plain tolerance in the quantity's unit, to which more is added for digits or drift. Roll
-    /// has no plain tolerance.
+    /// The plain tolerance in the quantity's unit. More is added to it for the rounding of large
+    /// coordinates, and for the drift of the roll. The roll has no plain tolerance.
     const fn bound(self) -> f64 {
         match self {
             Self::Centre | Self::Vertex => POSITION,

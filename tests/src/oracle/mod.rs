@@ -1,12 +1,13 @@
 //! The oracle: the whole pipeline in f64, slow and plain.
 //!
-//! It is written from the definitions: the paper's equations and the documents of the core's types.
-//! It calls none of the core's geometry, so that both do not share an error. Control points count
-//! as exact.
+//! The oracle is written from the definitions: the paper's equations and the documents of the
+//! core's types. It works out rings and vertices without the core's geometry, so that it and the
+//! core share no error. It takes from the layout which yarns are steep, and the up directions of
+//! yarns that lean. Control points count as exact.
 //!
-//! It uses other methods than the core where it can. The spline is the paper's basis instead of
-//! powers of t. The rotation-minimising frame is a vector that is carried along instead of a sum of
-//! turns. Areas of sections are closed forms instead of polygons.
+//! The oracle uses other methods than the core where it can. The spline is the paper's basis
+//! instead of powers of t. The rotation-minimising frame is a vector that is carried along instead
+//! of a sum of turns. Areas of sections are closed forms, or an integral, instead of polygons.
 
 mod frame;
 mod section;
@@ -42,8 +43,8 @@ pub struct OracleRing {
     /// The largest coordinate of the ring's four control points, mm, without sign. The rounding of
     /// f32 depends on it.
     pub extent: f64,
-    /// Side and up of the frame in which the section is flattened: the upright frame, or the frame
-    /// that leans.
+    /// Side and up of the frame in which the section is flattened: the upright frame, or for a yarn
+    /// with up directions the frame that they give.
     pub upright: [DVec3; 2],
     /// Whether the yarn has up directions that it follows.
     pub leans: bool,
@@ -67,8 +68,8 @@ impl OracleRing {
         self.halves[0].min(self.halves[1])
     }
 
-    /// The larger of the two halves, divided by the smaller. Flattening may turn a normal by this
-    /// factor more than the roll.
+    /// The larger of the two halves, divided by the smaller. If the roll is off by an angle, a
+    /// normal may be off by up to this factor times the angle.
     #[must_use]
     pub fn flatness(&self) -> f64 {
         self.halves[0].max(self.halves[1]) / self.thinnest()
@@ -261,15 +262,17 @@ fn note_interval_twist(rings: &mut [OracleRing], per_interval: usize) {
     let starts: Vec<_> = rings.iter().step_by(per_interval).map(|ring| ring.twist).collect();
     for (interval, bounds) in starts.windows(2).enumerate() {
         let first = interval * per_interval;
-        // The knot at the end belongs to the next interval, except at the end of the yarn.
+        // The ring at the end of an interval belongs to the next interval, except at the end of the
+        // yarn.
         for ring in &mut rings[first..=first + per_interval] {
             ring.interval_twist = bounds[1] - bounds[0];
         }
     }
 }
 
-/// Spreads what a closed yarn turns beyond the nearest whole number of turns evenly along the yarn,
-/// and returns it. Closes the yarn with a copy of its first ring.
+/// Returns the excess of a closed yarn: its total turn less the nearest whole number of turns.
+/// Takes the excess off the rolls, evenly along the yarn. Closes the yarn with a copy of its first
+/// ring.
 fn close(rings: &mut [OracleRing]) -> f64 {
     let gaps = rings.len() - 1;
     let whole = rings[gaps].roll - rings[0].roll;

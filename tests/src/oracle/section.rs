@@ -1,4 +1,5 @@
-//! Outlines of sections in f64, scaled to the area of the unit circle by closed forms.
+//! Outlines of sections in f64. A polygon keeps its corners. All other outlines are scaled to the
+//! area of the unit circle, by closed forms or, for power ellipses, by an integral.
 
 use std::f64::consts::{PI, TAU};
 
@@ -137,8 +138,8 @@ fn lens([upper, lower]: &[Arc; 2], k: u32, sides: u32) -> OutlinePoint {
     point
 }
 
-/// The point at the angle θ of the outline of p plies, whose distance from the axis is 1 - depth (1
-/// - cos pθ).
+/// The point at the angle θ of the outline of p plies. The point's distance from the axis is
+/// `1 - depth (1 - cos pθ)`.
 fn lobed(depth: f64, plies: f64, angle: f64) -> OutlinePoint {
     let distance = 1.0 - depth * (1.0 - (plies * angle).cos());
     let change = -depth * plies * (plies * angle).sin();

@@ -72,8 +72,8 @@ impl Interval {
     }
 
     /// A half width or half height, and its growth along the yarn. The size is at least half of the
-    /// smaller value at the two points that the interval joins. Its growth is 0 if that bound holds
-    /// the size, or if the yarn stands still.
+    /// smaller value at the two points that the interval joins. The growth is 0 where the size is
+    /// raised to this least value, and where the yarn stands still.
     fn size(&self, which: usize, orders: [[f64; 4]; 4]) -> (f64, f64) {
         let (half, velocity) = (self.half(which, orders[0]), self.position(orders[1]));
         let least = 0.5 * self.halves[which][1].min(self.halves[which][2]);
@@ -98,9 +98,9 @@ impl Interval {
         self.positions.iter().map(furthest).fold(0.0, f64::max)
     }
 
-    /// The tangent at t: the direction of the first derivative that is not zero, or +x if all are.
-    /// It is the limit from the right. At t = 1, where a yarn ends, it is the limit from the left:
-    /// odd orders keep their sign, and the second order changes it.
+    /// The tangent at t: the direction of the lowest derivative that is not zero, or +x if all
+    /// three are zero. It is the limit from the right. At t = 1, where a yarn ends, it is the limit
+    /// from the left: the second derivative changes its sign, and the others keep theirs.
     fn tangent(&self, orders: [[f64; 4]; 4], t: f64) -> DVec3 {
         let before = if t < 1.0 { 1.0 } else { -1.0 };
         for (order, sign) in [(1, 1.0), (2, before), (3, 1.0)] {
@@ -119,8 +119,8 @@ impl<'a> Curve<'a> {
         Self { points, closed, per_interval: u64::from(subdivisions) + 1, s }
     }
 
-    /// Number of rings: one for the start and the inserted points of each control interval, and one
-    /// for the end.
+    /// Number of rings: one for the start of each control interval, one for each inserted point,
+    /// and one for the end of the yarn.
     pub(super) fn ring_count(&self) -> u64 {
         let intervals = self.points.len() as u64 - u64::from(!self.closed);
         intervals * self.per_interval + 1

@@ -7,8 +7,9 @@ use texere_core::End;
 use super::OutlinePoint;
 
 /// The two triangles between side `side` of ring `ring` and the next ring, as vertex numbers of a
-/// tube whose rings have `sides` vertices each and follow one another from 0. They are
-/// counter-clockwise seen from outside, first around the ring and then along the yarn.
+/// tube whose rings have `sides` vertices each and follow one another from 0. Seen from outside,
+/// both triangles are counter-clockwise. Their common edge goes from vertex `side` + 1 of the ring
+/// to vertex `side` of the next ring.
 #[must_use]
 pub fn quad_indices(ring: u64, side: u64, sides: u64) -> [u64; 6] {
     let vertex = |ring: u64, side: u64| ring * sides + side % sides;

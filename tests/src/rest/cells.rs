@@ -52,8 +52,8 @@ impl Cells {
     }
 }
 
-/// The cell of the first repeat of which `cell` is an image, and the repeats by which the image
-/// lies further.
+/// `cell`, moved into the first repeat, and the number of repeats by which it has been moved back
+/// along each axis.
 fn wrapped(cell: [i64; 2], count: [i64; 2]) -> ([i64; 2], [i64; 2]) {
     let split = [0, 1].map(|axis| match count[axis] {
         0 => (cell[axis], 0),

@@ -23,7 +23,7 @@ pub struct Chart {
     cells: Vec<(Stitch, i64)>,
 }
 
-/// A loop on a needle, relative to the stitch that is drawn through it.
+/// A loop on a needle, by the course and the wale in which it was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Hanging {
     course: i64,

@@ -76,7 +76,7 @@ impl<'a> Chords<'a> {
         Self { start, all, lengths }
     }
 
-    /// Upper bound on any nearest-image distance.
+    /// An upper bound of the distance from any place to the nearest image of another place, mm.
     pub(super) fn widest(&self) -> f64 {
         let ends = || self.all.iter().flat_map(|chord| [chord.from, chord.to]);
         let low = ends().reduce(DVec3::min).unwrap_or_default();

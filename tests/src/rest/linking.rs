@@ -39,8 +39,8 @@ pub struct Linking {
     pub at: Option<[Place; 2]>,
 }
 
-/// Compares the linking of the yarns of `start` with their points `before` and `after`, with all
-/// copies of the repeat.
+/// Compares how the yarns of `start` are linked at their points `before` with how they are linked
+/// at their points `after`. All copies of the repeat count.
 ///
 /// # Panics
 ///

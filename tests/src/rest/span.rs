@@ -36,12 +36,13 @@ pub fn piece_start(name: &str, piece: &Piece, radius: f64) -> Start {
     }
 }
 
-/// The spline of a yarn that goes on, in `parts` chords per control interval, up to the first point
-/// of its next round. `yarns` are the yarns of `piece`, possibly moved.
+/// The spline of a yarn that goes on in another repeat, in `parts` chords per control interval. The
+/// last chord ends at the first point of that repeat. `yarns` are the yarns of `piece`, possibly
+/// moved.
 ///
 /// # Panics
 ///
-/// For a yarn that does not go on.
+/// For a yarn that does not go on in another repeat.
 #[must_use]
 pub fn piece_curve(piece: &Piece, yarns: &Yarns, yarn: usize, parts: usize) -> Vec<DVec3> {
     let points: Vec<_> =

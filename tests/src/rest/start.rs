@@ -19,7 +19,7 @@ pub enum Ends {
 pub enum Length {
     /// Each interval keeps its length at the start.
     Held,
-    /// Each yarn reaches its length at the start times this factor.
+    /// Each interval reaches this multiple of its length at the start.
     Given(f64),
     /// Yarns may change their length freely.
     Free,

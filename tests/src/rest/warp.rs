@@ -82,10 +82,10 @@ pub fn warp_knit(name: &str, lapping: Lapping<'_>) -> Start {
     }
 }
 
-/// Adds points to underlaps. None of their pieces is then much longer than those of a loop, because
-/// a spline turns sharply where a long piece follows a short one. The points lie behind the feet by
-/// `behind`: other yarns of the same bar have their feet there. After the last point the first one
-/// follows, moved by `on`.
+/// Adds points to underlaps, so that none of their pieces is much longer than those of a loop: a
+/// spline turns sharply where a long piece follows a short one. The added points lie further back
+/// by `behind` than the line from foot to foot, because other yarns of the same bar have their feet
+/// near that line. After the last point of `points` the first one follows, moved by `on`.
 fn with_underlaps(points: &[DVec3], on: DVec3, behind: f64) -> Vec<DVec3> {
     let next = points[1..].iter().copied().chain([points[0] + on]);
     let pieces = points.iter().zip(next).flat_map(|(&from, to)| {

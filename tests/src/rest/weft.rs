@@ -1,7 +1,7 @@
 //! Starts of weft knits: the stitches of a chart as paths of yarn.
 //!
-//! A plain loop has twelve points: round arcs, and legs that make a V. Here loops are drawn to the
-//! face. For loops that are drawn to the back, z changes its sign.
+//! A plain loop has twelve points: round arcs, and legs that make a V. The points are given for
+//! loops that are drawn to the face. For loops that are drawn to the back, z changes its sign.
 //!
 //! - A loop comes through the loops that hang on its needle. Its feet pass behind the upper legs of
 //!   those loops, and its legs pass in front of their heads. The lower half of a loop therefore
@@ -156,7 +156,8 @@ impl Cell<'_> {
         DVec3::new((self.wale as f64 + 0.5) * wale + x, self.course as f64 * course + y, z)
     }
 
-    /// The side to which the loop itself is drawn. Without a loop, it is the side of the next loop.
+    /// The side to which the loop itself is drawn: 1 for the face, -1 for the back. For a tuck or a
+    /// miss it is the side of the next loop.
     fn side(&self) -> f64 {
         match self.chart.stitch(self.course, self.wale) {
             Stitch::Face => 1.0,

@@ -15,7 +15,7 @@ use texere_core::{
     OutOfMemory, Pipeline, PipelineError, Section, Settings, Topology, Vertex, Yarn, Yarns,
 };
 
-/// The most control points of a yarn, which has the rings of several blocks.
+/// The most control points of a yarn. A yarn of so many points has the rings of several blocks.
 const ROOM: usize = 150;
 
 #[derive(Debug, Clone)]
@@ -34,8 +34,8 @@ enum Edit {
 type Fabric = Vec<(Yarn, Vec<ControlPoint>)>;
 
 fn points(count: impl Into<prop::collection::SizeRange>) -> impl Strategy<Value = Vec<ControlPoint>> {
-    // The range starts at 0, which is a multiple of every unit. proptest 1.12 may fail an assertion
-    // of its own where the lower bound has finer digits than the upper one.
+    // proptest 1.12 may fail an assertion of its own where the lower bound of a range has finer
+    // binary digits than the upper one. The range therefore starts at 0.
     let half = || (0.0f32..0.5).prop_map(|half| half.max(0.05));
     let halves = prop_oneof![3 => Just((0.2f32, 0.2f32)), 1 => (half(), half())];
     let point = (-2.0f32..2.0, -2.0f32..2.0, -2.0f32..2.0, halves)
@@ -185,7 +185,7 @@ fn apply(live: &mut LiveMesh, fabric: &mut Fabric, edit: &Edit) {
     match edit {
         Edit::Yarn { yarn, twist, section, points } => {
             let yarn = yarn % fabric.len();
-            // The fabric's plan has no scan, so it can't get a twisted yarn.
+            // If the plan has no scan, the yarn can't be twisted.
             let twist = if live.plan().needs_scan() { *twist } else { 0.0 };
             let what = Yarn { twist, section: *section, ..fabric[yarn].0 };
             live.set_yarn(yarn, what, points).unwrap();

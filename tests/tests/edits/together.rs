@@ -83,7 +83,7 @@ fn one_yarn_that_is_refused_leaves_all_as_they_were() {
             assert!(Arc::ptr_eq(live.plan(), &plan), "{said}");
             assert_eq!((live.traffic().uploaded, live.update().unwrap()), (sent, Vec::new()), "{said}");
         }
-        // Bit by bit: where a yarn has room and no rings yet, memory may hold bits of no number.
+        // Bits are compared, because memory may hold NaN where a yarn has room and no rings yet.
         let bits = |vertices: &[Vertex]| bytemuck::cast_slice::<_, u32>(vertices).to_vec();
         assert!(bits(&read(&mut live).vertices) == bits(&mesh.vertices));
         // The two valid yarns are accepted without the third.

@@ -1,5 +1,6 @@
-//! Weft knits: loops are drawn through the right loops, and settle. The checks share no code with
-//! texere's crates.
+//! Weft knits: loops are drawn through the right loops, and settle. The checks of topology,
+//! distances and linking share no code with texere's crates. The library's own check of linking has
+//! to agree with them.
 
 mod topology;
 

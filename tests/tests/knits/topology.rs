@@ -19,8 +19,8 @@ struct Stretch {
     head: usize,
 }
 
-/// Differences from the stitches. There are none if the legs of each loop go through exactly the
-/// loops that it is drawn through.
+/// Differences of `yarns` from `stitches`. There are none if the legs of each loop go through
+/// exactly the loops that it is drawn through, and floats go through no loop.
 pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [right, up] = piece.boundary.repeat().map(f64::from);
     let shift = |repeat: [i32; 2]| DVec3::new(right * f64::from(repeat[0]), up * f64::from(repeat[1]), 0.0);
@@ -74,7 +74,8 @@ pub(crate) fn faults(stitches: &Stitches, piece: &Piece, yarns: &Yarns) -> Vec<S
     faults
 }
 
-/// A yarn needle by needle. Each needle has a source of its own.
+/// The stretches of a yarn, one for each needle that it passes. The points of each have a source of
+/// their own.
 fn stretches(piece: &Piece, yarns: &Yarns, yarn: usize) -> Vec<Stretch> {
     let range = yarns.range(yarn).expect("a yarn");
     let sources = &yarns.sources().expect("sources")[range];

@@ -85,7 +85,7 @@ pub(crate) fn meets(ray: &Ray, [a, b, c]: &[[f64; 3]; 3], slack: f64) -> Option<
 /// The number of triangles in one ball of [`balls`].
 const IN_BALL: usize = 32;
 
-/// The middle and the radius of a ball round each [`IN_BALL`] triangles that follow each other.
+/// The middle and the radius of a ball round every [`IN_BALL`] triangles in a row.
 pub(crate) fn balls(all: &[Triangle]) -> Vec<([f64; 3], f64)> {
     let ball = |triangles: &[Triangle]| {
         let corners = || triangles.iter().flat_map(|(corners, _)| corners);
@@ -98,9 +98,9 @@ pub(crate) fn balls(all: &[Triangle]) -> Vec<([f64; 3], f64)> {
 }
 
 /// The distance and the place of the nearest of all triangles, and the length of its longest edge.
-/// Both lengths are in lengths of the ray's direction. Triangles are left out if the ray's line
-/// stays clear of their ball by a millionth of the ball's radius and distance. The slack is a
-/// thousandth of that.
+/// Both lengths are in lengths of the ray's direction. A triangle is left out if the ray's line
+/// passes its ball by more than a millionth of the sum of the ball's radius and distance. That is a
+/// thousand times the largest slack with which [`compare`] calls this function.
 pub(crate) fn nearest(
     ray: &Ray,
     all: &[Triangle],

@@ -144,9 +144,9 @@ fn yarns_that_are_edited_are_hit_where_they_are() {
     assert!(edges as f64 <= EDGES * 4_000.0, "{edges} rays met edges");
 }
 
-/// Boxes hold all vertices, and are little larger than necessary. At the end of a yarn they also
-/// reach out along it by the size of its section; elsewhere by the excess of a Bézier hull over its
-/// curve. `random.rs` tests boxes with random yarns.
+/// Boxes hold all vertices, and are little larger than necessary. At the end of a yarn they reach
+/// further along the yarn, by the size of its section. Elsewhere they are larger by the excess of a
+/// Bézier hull over its curve. `random.rs` tests boxes with random yarns.
 #[test]
 fn boxes_are_tight() {
     for Cloth { name, yarns, settings, .. } in clothes() {

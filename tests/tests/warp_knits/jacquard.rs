@@ -15,13 +15,13 @@ use texere_fabric::weft::{Gauge, KnitYarn};
 use super::fault;
 use super::topology::faults;
 
-/// Diameters in wales: the paper's, and the largest.
+/// The diameters with which figures settle here, in wales: the paper's, and a larger one.
 const DIAMETERS: [f64; 2] = [0.08, 0.1];
 
 /// The least radius of curvature without a fold, in diameters. A tube closes up on the inside of a
-/// bend whose radius is half its thickness; the head of a loop whose legs touch is such a bend. The
-/// radius at which settling aims is no bound for all figures. Settling makes a limited number of
-/// passes, and returns the best of them by clearance, then by bends. Random figures end between
+/// bend whose radius is half its thickness; the head of a loop whose legs touch is such a bend. Not
+/// every figure reaches the radius at which settling aims, because settling makes a limited number
+/// of passes, and returns the best of them by clearance, then by bends. Random figures end between
 /// 0.57 and 0.62.
 const FOLD: f64 = 0.5;
 
@@ -69,8 +69,9 @@ fn clear(cloth: &WarpKnitted) -> f64 {
 /// needles there.
 #[test]
 fn figures_are_as_clear_where_they_are_cut_off() {
-    // Four of some 150 random figures: the one whose legs differ most in their bends above the
-    // cloth, one whose upper end came nearest to a neighbour, and two whose lower ends did.
+    // Four of some 150 random figures. In the first, the bends of the legs above the cloth differ
+    // most. In the second, an upper end came nearest to a neighbour. In the other two, a lower end
+    // did.
     let random = [
         [1_u8, 1, 2, 1, 0, 0, 0, 0, 2, 0, 0, 1, 0, 2, 0, 0, 2, 2],
         [2, 0, 1, 2, 1, 0, 0, 1, 1, 0, 2, 2, 1, 2, 1, 2, 2, 0],
@@ -91,8 +92,8 @@ fn figures_are_as_clear_where_they_are_cut_off() {
     }
 }
 
-/// The loops of any figure are drawn through those below from the start. Its cut edges are clear up
-/// to [`CUT`].
+/// The loops of any figure are drawn through those below from the start. Its yarns come to rest,
+/// and their clearance with the cut edges is at least [`CUT`].
 #[test]
 fn any_figure_rests() {
     let colours = prop::collection::vec(0_u8..3, 6 * 3);

@@ -1,5 +1,6 @@
-//! Warp knits: every loop is drawn through those below it, and cloth settles. The checks share no
-//! code with texere's crates.
+//! Warp knits: every loop is drawn through those below it, and cloth settles. The checks of
+//! topology, distances and linking share no code with texere's crates. Cut edges and folds are
+//! measured by the library, whose own check of linking has to agree, too.
 
 mod jacquard;
 mod topology;
@@ -130,8 +131,8 @@ fn rest(
         settled.rest.passes
     );
     let rests = report.clearance >= 0.98 && report.bend >= bend && report.growth.abs() < 0.02;
-    // Surfaces as drawn fold below 1, as in the library's verdict. The whole verdict is not used,
-    // because it also depends on cut edges.
+    // A drawn surface folds if its radius of curvature is below the reach of its section, as in the
+    // library's verdict. The whole verdict is not used, because it also depends on cut edges.
     let folds = settled.clearance.curvature_min < 1.0;
     let sound = rests && !folds && linked < CROSSED && settled.is_linked();
     if sound {

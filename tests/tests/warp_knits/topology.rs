@@ -20,9 +20,9 @@ struct Loop {
     curve: Vec<DVec3>,
 }
 
-/// Differences from the bars' laps. There are none if both legs of each loop go through all loops
-/// on its needle in the course below, and through no others. `piece` is the whole of `cloth`, and
-/// `yarns` are its yarns.
+/// Differences of `yarns` from the bars' laps. There are none if both legs of each loop go through
+/// all loops on its needle in the course below, and through no others. `piece` is the whole of
+/// `cloth`, and `yarns` are its yarns.
 pub(crate) fn faults(cloth: &WarpKnitted, piece: &Piece, yarns: &Yarns) -> Vec<String> {
     let [wales, courses] = cloth.size().map(|count| count as i32);
     let gauge = cloth.gauge();

@@ -13,7 +13,7 @@ use texere_cpu::ParallelBackend;
 use super::check;
 use super::judge::drawn;
 
-/// Width over height of the flattened yarns in this file.
+/// Width over height of the flattened yarns in this file, unless a test gives another.
 const FLATNESS: f32 = 2.0;
 
 fn flattened(point: &ControlPoint, flatness: f32) -> ControlPoint {
@@ -27,7 +27,8 @@ fn flat(yarns: &Yarns, flatness: f32) -> Yarns {
     Yarns::new(yarns.layout().as_ref().clone(), yarns.materials().to_vec(), points).unwrap()
 }
 
-/// A yarn with a lens as section through `places`, of this radius in mm before it is flattened.
+/// A yarn through `places` whose section is a lens. Its `radius`, mm, is that before it is
+/// flattened.
 fn ribbon(places: &[DVec3], closed: bool, radius: f32) -> Yarns {
     let points: Vec<_> = places
         .iter()
@@ -57,9 +58,9 @@ fn sampled(curve: impl Fn(f64) -> DVec3, closed: bool, bend: f64) -> Vec<DVec3> 
     }
 }
 
-/// A binder that goes down through the cloth and comes up again, in round bends. It leans a little
-/// to either side, so that its tangent passes z on both sides and exactly through it. It overhangs
-/// by `over` radians.
+/// A binder that goes down through the cloth and comes up again, in round bends. It leans to either
+/// side, so that its tangent passes z on both sides. With a `lean` of 0 the tangent passes exactly
+/// through z. The binder overhangs by `over` radians.
 fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     let way = |t: f64| {
         // The slope goes from straight up to straight down, and a little further either way.
@@ -78,8 +79,9 @@ fn binder(lean: f64, over: f64) -> Vec<DVec3> {
     places.into_iter().step_by(50).collect()
 }
 
-/// Checks a mesh of `yarns`, and that no part of it is inside out. With three sides, or with one
-/// ring per control point, a turning lens is so coarse that its triangles may face anywhere.
+/// Checks meshes of `yarns`, and that no triangle of finer meshes faces inwards. Meshes with three
+/// sides, or with one ring per control point, are too coarse for the second check: triangles of a
+/// turning lens may face anywhere in them.
 fn check_flat(name: &str, yarns: &Yarns) {
     check(name, yarns);
     let device = ParallelBackend::open().unwrap();

@@ -1,5 +1,5 @@
-//! The turn of a mesh from ring to ring, in f64 and from its vertices alone. Nothing here uses
-//! texere's frames.
+//! The turn of a mesh from ring to ring, in f64, from its vertices and from the centres and
+//! tangents of its rings. Nothing here uses texere's frames.
 
 use glam::DVec3;
 use texere_core::{Backend, Pipeline, Settings, Topology, Yarns};

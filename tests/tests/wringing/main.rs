@@ -35,8 +35,9 @@ fn check(name: &str, yarns: &Yarns) -> usize {
             let drawn = drawn(&device, yarns, settings);
             let case = format!("{name}, {frame:?}, K {subdivisions}, {sides} sides: {drawn:?}");
             assert!(drawn.turn <= TURN, "{case}");
-            // Arms of a section become longer and shorter as it is carried along inside a flat
-            // outline.
+            // A section in a rotation-minimizing frame turns inside the outline of a flattened
+            // yarn. Its vertices come nearer to the axis and go away from it, so the width proves
+            // nothing.
             let layout = yarns.layout();
             let carried = (0..layout.yarns().len())
                 .any(|yarn| frame.of(layout.is_steep(yarn)) == Frame::RotationMinimizing);
@@ -103,7 +104,8 @@ fn hairpins_through_the_vertical_are_not_wrung() {
     }
 }
 
-/// The tangent of an upright ring passes z twice. The frame comes back to itself.
+/// The tangent of a yarn that is closed to an upright circle passes z twice. The frame comes back
+/// to itself.
 #[test]
 fn closed_yarns_that_stand_on_end_are_not_wrung() {
     for aside in [0.0, 1e-6, 0.1] {

@@ -1,4 +1,4 @@
-//! The gallery: pictures of every design.
+//! The gallery: pictures of every design in `designs`, and of woven cloths in `designs/paper`.
 
 use super::{render, vulkan};
 use crate::build::Build;

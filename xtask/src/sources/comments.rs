@@ -92,8 +92,8 @@ fn literal(text: &str, before: Option<char>) -> usize {
     if text.starts_with('"') {
         return quoted(text, '"');
     }
-    // A quote begins a lifetime unless another quote follows after one character, or after a few
-    // behind a backslash.
+    // A single quote begins a lifetime, unless a backslash follows it or a second quote stands
+    // behind one character.
     let mut after = text.chars().skip(1);
     match (text.starts_with('\''), after.next(), after.next()) {
         (true, Some('\\'), _) | (true, Some(_), Some('\'')) => quoted(text, '\''),

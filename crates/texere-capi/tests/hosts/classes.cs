@@ -133,7 +133,8 @@ static unsafe class Classes
         Thrown<NotSupportedException>(() => design.Write(DesignFormat.Wif, closed));
     }
 
-    // An edit, which changes the yarns, and what undoes it.
+    // Makes an edit and undoes the edit. The edit has to change the yarns, and undoing it has to
+    // bring them back.
     static void Edited(Live live, Action edit, Action undo)
     {
         var before = Saved(live);

@@ -51,7 +51,8 @@ fn planned(live: *const texere_live, device: *const texere_device) -> Vec<Vec<[u
     }
 }
 
-/// The attributes of the live cloth as its mesh draws them. `attributes` has been read from it.
+/// The attributes at the corners of all triangles that the live cloth draws, draw by draw.
+/// `attributes` are those of the cloth's vertices.
 fn lived(live: *const texere_live, attributes: &[texere_attribute]) -> Vec<Vec<[u32; 6]>> {
     let mut mesh = Mesh::default();
     read(live, &mut mesh);

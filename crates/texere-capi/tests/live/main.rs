@@ -44,7 +44,8 @@ fn own_settings() -> Settings {
     Settings { caps: true, ..Settings::default() }
 }
 
-/// Two live cloths of a design's cloth with its yarns as placed, made from C and from Rust.
+/// Two live cloths of a design with its yarns as placed: one made from C, and one from Rust. Also
+/// returns the design as Rust reads it.
 fn live_cloth(text: &str, device: &str) -> (*mut texere_live, Live, Design) {
     let (handle, own, (device, backend)) = (design(text), rust_design(text), opened(device));
     // SAFETY: all pointers are those of values that live as long as the calls.
@@ -240,7 +241,7 @@ fn edits_that_are_set_back_give_the_first_mesh() {
     }
 }
 
-/// A knit with a tuck and a miss replaces a plain knit, and a weave.
+/// A knit with a tuck and a miss replaces a plain knit. Then a weave replaces that knit.
 #[test]
 fn another_structure_takes_the_place_of_the_first() {
     for device in devices() {
@@ -305,7 +306,7 @@ fn yarns_at_rest_take_the_place_of_those_that_are_placed() {
     }
 }
 
-/// A call fails while another thread uses the live cloth, which can be used as before afterwards.
+/// A call fails while another thread uses the live cloth. Afterwards the cloth works as before.
 #[test]
 fn a_live_cloth_that_another_thread_uses_is_refused() {
     let (live, _, _) = live_cloth(TWILL, "cpu");

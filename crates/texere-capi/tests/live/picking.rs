@@ -13,7 +13,7 @@ use crate::common::message;
 use crate::reading::read as design;
 use crate::{TWILL, live_cloth, own_settings, settings};
 
-/// Rays down onto the cloth, and one that misses it.
+/// Sixty rays down onto the cloth. Some of them hit no yarn.
 fn rays() -> impl Iterator<Item = Ray> {
     let at = |number: u32| [number % 10, number / 10].map(|step| f64::from(step) * 0.63 + 0.05);
     (0..60).map(move |number| {
@@ -71,8 +71,9 @@ fn a_hit_is_that_of_rust_and_is_called_what_a_weaver_calls_it() {
                 assert_eq!(words, own.named(&edited, &place).to_string());
             }
         }
-        // An end with half of its points: where its intervals lie elsewhere in the cloth, their
-        // names would be those of other picks.
+        // An end keeps every second control point. Some of its intervals then lie elsewhere in the
+        // cloth. The unedited cloth must refuse to name places on these intervals, because it would
+        // name other picks.
         let point = |own: &ControlPoint| texere_point {
             x: own.x,
             y: own.y,

@@ -78,8 +78,8 @@ pub(crate) fn drawn(live: *const texere_live, mesh: &Mesh) -> Vec<(u32, Vec<Vert
     draws.iter().map(corners).collect()
 }
 
-/// The triangles that are drawn of the mesh as Rust reads it, chunk by chunk. Room between yarns is
-/// left out, because its contents are undefined.
+/// The corners of all triangles that Rust draws, draw by draw, with their yarns. Room between yarns
+/// is left out, because its contents are undefined.
 pub(crate) fn rust_drawn(live: &mut Live) -> Vec<(u32, Vec<Vertex>)> {
     let mesh = live.mesh_mut();
     let (plan, mut all) = (mesh.plan().clone(), Vec::new());

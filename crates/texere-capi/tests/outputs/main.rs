@@ -17,8 +17,8 @@ use texere::{Backend, Mesh, Pipeline, Settings, WriteError, Yarns};
 use texere_c::texere_status::*;
 use texere_c::*;
 
-/// Limits that cut meshes into the same chunks as the library does: 16 MiB for each core, 32 to 64
-/// MiB.
+/// Limits that cut meshes into the same chunks as the library does. The largest buffer of a chunk
+/// has 16 MiB for each core, but 32 MiB at least and 64 MiB at most.
 fn limits() -> Limits {
     let cores = std::thread::available_parallelism().unwrap().get() as u64;
     Limits { binding_bytes: (cores << 24).clamp(32 << 20, 64 << 20), ..Limits::NONE }
@@ -34,7 +34,7 @@ fn everywhere(check: impl Fn(&str, &dyn Backend, &Yarns, &Settings, &Plan) + Syn
                 let plan = Plan::new(yarns, device, &settings);
                 check(&format!("{name} on {device}, {topology:?}"), backend, yarns, &settings, &plan);
             };
-            // A mesh and its file keep one core busy most of the time.
+            // Making a mesh or its file mostly keeps only one core busy, so two checks run at once.
             std::thread::scope(|scope| {
                 scope.spawn(|| with(false, Topology::Indexed));
                 with(true, Topology::Shared);
@@ -73,7 +73,7 @@ fn meshes_packed_vertices_attributes_and_rings_are_those_of_rust() {
         let own = pipeline(yarns, settings).attributes(backend).unwrap();
         assert!(bytes(&own) == bytes(&attributes), "{name}: other attributes");
 
-        // SAFETY: zeros are a value of it.
+        // SAFETY: zeros are a valid value of `texere_ring`.
         let nothing: texere_ring = unsafe { std::mem::zeroed() };
         let mut rings = vec![nothing; plan.counts.rings as usize];
         let (mut offsets, mut count) = (null(), 0);
@@ -153,7 +153,7 @@ struct Streamed {
     vertices: Vec<texere_vertex>,
     indices: Vec<u32>,
     draws: Vec<texere_draw>,
-    /// The chunk of the last piece, and the first vertex that it names.
+    /// The chunk of the last piece, and the piece's `base_vertex`.
     last: Option<(u64, u64)>,
     most: u64,
 }
@@ -227,12 +227,12 @@ fn a_file_for_a_callback_has_the_bytes_of_the_file() {
             (TEXERE_FORMAT_USDA, Format::Usda),
             (TEXERE_FORMAT_KHR_COMPRESSED_GLB, Format::KhrCompressedGlb),
         ];
-        // A file's writer is the same for all devices, and text takes long: the others write one
-        // format.
+        // Writers of files are the same for all devices, and files of text take long to write. So
+        // only `cpu` tries all formats, and the other devices try one.
         let count = if backend.info().name == "cpu" { formats.len() } else { 1 };
         for (number, format) in formats.into_iter().take(count) {
-            // Their text takes minutes. A file's chunks are so small that other cloths have
-            // several.
+            // The text of such long yarns takes minutes. Other subjects, too, have several
+            // chunks in a file, because chunks of files are small.
             if matches!(format, Format::Obj | Format::Usda) && name.starts_with("several chunks") {
                 continue;
             }
@@ -244,7 +244,7 @@ fn a_file_for_a_callback_has_the_bytes_of_the_file() {
             let status = unsafe {
                 texere_plan_write_to(plan.handle, null(), number, Some(store), from_mut(&mut file).cast())
             };
-            // The yarns of several chunks are too long to be packed.
+            // The yarns of the subject `several chunks` are too long to be packed.
             if matches!(rust, Err(WriteError::TooLongToPack { .. })) {
                 assert_eq!(status, TEXERE_UNSUPPORTED);
                 continue;

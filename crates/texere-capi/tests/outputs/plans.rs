@@ -41,7 +41,7 @@ pub(crate) fn subjects() -> Vec<(&'static str, Yarns)> {
     let placed = |name: &'static str| {
         (name, texere::read(designs.join(name)).unwrap().placed(0.0).unwrap().yarns().clone())
     };
-    // 20,000 for each 8 MiB of a chunk.
+    // Each yarn has 20,000 control points for each 8 MiB of a chunk's largest buffer.
     let points = 20_000 * (crate::limits().binding_bytes >> 23) as u32;
     let mut several = Yarns::builder();
     for number in 0..3_u32 {
@@ -145,6 +145,6 @@ pub(crate) fn whole<T>(values: &mut [T]) -> texere_view {
 
 /// The bytes of values of a plain type.
 pub(crate) fn bytes<T>(values: &[T]) -> &[u8] {
-    // SAFETY: only for types without bytes between their members.
+    // SAFETY: the tests call this only for types without padding between their members.
     unsafe { from_raw_parts(values.as_ptr().cast(), size_of_val(values)) }
 }

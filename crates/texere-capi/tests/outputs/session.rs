@@ -16,7 +16,8 @@ use crate::plans::{Plan, VERTEX, bytes, devices, message, ok, sized, subjects};
 fn opencl_bytes(native: &texere_native, part: &texere_device_buffer, ready: u64) -> Vec<u8> {
     let mut read = vec![0; part.size as usize];
     let object = |number: u64| std::ptr::with_exposed_provenance_mut(number as usize);
-    // SAFETY: the objects are valid until the session is freed, the event until its next call.
+    // SAFETY: the objects are valid until the session is freed. The event is valid until the next
+    // call of the session.
     unsafe {
         let (queue, memory, event) = (object(native.queue), object(part.buffer), object(ready));
         let (offset, out) = (part.offset as usize, read.as_mut_ptr().cast());

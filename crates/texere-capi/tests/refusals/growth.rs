@@ -1,5 +1,5 @@
-//! The library accepts structs that say their size from programs that were built with an earlier or
-//! a later header.
+//! Structs that say their size may come from programs that were built with an earlier or a later
+//! header. The library accepts such structs.
 
 use std::collections::BTreeSet;
 use std::ffi::c_void;
@@ -51,7 +51,7 @@ impl Call {
     }
 
     /// Calls the function with a struct that says `size`. If the library reads the struct, bytes of
-    /// the value `tail` follow the bytes that this library has. Returns the status, the error
+    /// the value `tail` follow the members that this library knows. Returns the status, the error
     /// message, and what the memory holds after the call.
     fn with(&self, size: usize, tail: u8) -> (texere_status, String, Vec<u8>) {
         let own = self.bytes.len();

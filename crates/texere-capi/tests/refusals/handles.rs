@@ -1,4 +1,4 @@
-//! A handle of each kind, of a small cloth on `cpu`.
+//! Handles of a small cloth on `cpu`, one of each kind but the session: `cpu` has no sessions.
 
 use std::ffi::{CStr, c_char};
 use std::ptr::null;
@@ -9,7 +9,7 @@ use crate::calls::{done, made};
 use crate::common::sized;
 use crate::reading::read;
 
-/// All handles of a small cloth.
+/// The handles of a small cloth.
 pub(crate) struct Handles {
     pub(crate) device: *mut texere_device,
     pub(crate) design: *mut texere_design,

@@ -1,4 +1,4 @@
-//! Calls about live cloth and pickers with one wrong argument each.
+//! Calls about live cloth and pickers with wrong arguments.
 
 use std::ptr::{null, null_mut};
 
@@ -165,7 +165,7 @@ fn edits_of_yarns(own: &'static Handles) -> Vec<Case> {
     cases
 }
 
-/// What a ray down onto the middle of the cloth hits.
+/// What a ray down onto the crossing of end 2 and pick 2 hits.
 fn hit(own: &Handles) -> texere_hit {
     let (ray, mut hit) =
         (texere_ray { origin: [0.75, 0.7, 9.0], direction: [0.0, 0.0, -1.0] }, texere_hit::default());

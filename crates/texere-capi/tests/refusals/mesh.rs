@@ -1,4 +1,4 @@
-//! Calls about yarns, settings and plans with one wrong argument each.
+//! Calls about yarns, settings and plans with wrong arguments.
 
 use std::ptr::{null, null_mut};
 

@@ -1,4 +1,5 @@
-//! Calls about plans and sessions, and the memory that they write to, with one wrong argument each.
+//! Calls about plans and sessions, and the memory that they write to, with wrong arguments. No call
+//! has a valid session, because `cpu` has no sessions.
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};

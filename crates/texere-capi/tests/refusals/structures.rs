@@ -1,5 +1,5 @@
-//! Calls with wrong arguments: those that make designs of arrays, set finishes, and read and write
-//! files of designs.
+//! Calls with wrong arguments: calls that make designs of arrays, read and set finishes, and write
+//! designs and drafts.
 
 use std::ptr::{null, null_mut};
 

@@ -1,4 +1,4 @@
-//! Macros that list calls with one wrong argument each.
+//! Macros that list calls with wrong arguments.
 
 use std::ptr::without_provenance_mut;
 
@@ -13,7 +13,7 @@ pub(crate) fn strange<H>() -> [*mut H; 2] {
     [without_provenance_mut(usize::MAX & !15), without_provenance_mut(8)]
 }
 
-/// Adds a call with one wrong argument. All other arguments are right.
+/// Adds a call with at least one wrong argument.
 macro_rules! case {
     ($cases:ident, $name:ident($($argument:expr),* $(,)?)) => {
         // SAFETY: the wrong argument is one that the library refuses without using it.

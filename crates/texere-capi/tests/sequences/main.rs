@@ -1,8 +1,9 @@
 //! Random sequences of calls. Whatever a program does with the library, no call panics, hangs or
 //! accepts an argument that it has to refuse.
 //!
-//! The test prints its seed. With `TEXERE_SEED` set to a seed it makes the same calls again.
-//! `TEXERE_SEQUENCES` says how many sequences it makes:
+//! The test prints its seed. With `TEXERE_SEED` set to a seed it makes the same calls again. Only
+//! the calls of eight threads may differ, because the threads share their handles.
+//! `TEXERE_SEQUENCES` says how many sequences the test makes:
 //!
 //! ```sh
 //! TEXERE_SEQUENCES=1000 valgrind --leak-check=full --errors-for-leak-kinds=definite \

@@ -77,7 +77,7 @@ fn woven_cloth_by_arrays_is_that_of_its_text() {
     assert_eq!(made, TEXERE_OK, "{}", message());
     let text = read(&woven_text());
     same(design, &text);
-    // Files that C writes and Rust reads give the same yarns, too.
+    // Files that C writes and Rust reads have the drawdown of the text, too.
     let folder = tempfile::tempdir().unwrap();
     for (name, settled) in [("c.toml", true), ("c.wif", false)] {
         let path = folder.path().join(name);
@@ -126,7 +126,8 @@ fn weft_knits_by_arrays_are_those_of_their_texts() {
     let text = "[knit]\nchart = \"\"\"\npu\nkb\"\"\"\nbeds = 2\nrepeat = [2, 1]\nwales_per_cm = 8.0\n\
         courses_per_cm = 10.0\nloop_length_mm = 4.0\ncells = \"even\"\nyarns = [\"a\"]\n";
     let text = read(&format!("{text}{YARNS}"));
-    // The design from the text drops the yarn that is not knitted. Its control points are the same.
+    // The design from the text drops the yarn that is not knitted. Both designs have the same
+    // control points.
     let (mut cloth, mut yarns, mut counts) = (null_mut(), null_mut(), sized::<texere_yarn_counts>());
     let own = text.placed(0.0).unwrap();
     let mut points = vec![texere_point::default(); own.yarns().points().len()];

@@ -11,8 +11,8 @@ pub(crate) struct BakeArgs {
     /// The folder to make: maps as PNG and EXR, and the material as U3M, U3MA and MaterialX
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
-    /// Size of a texel, mm. If left out, the mean radius of the yarns has eight texels, and the
-    /// maps 2048 along their longer side at most
+    /// Size of a texel, mm. If left out, an eighth of the mean radius of the yarns, or larger if
+    /// the maps would otherwise have more than 2048 texels along their longer side
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub(crate) texel: Option<f64>,
     /// Bake a rectangle of the cloth instead of one repeat: its left and lower edges, and its width

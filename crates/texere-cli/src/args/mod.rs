@@ -152,9 +152,9 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "EXTENSION", num_args = 0..=1, require_equals = true, default_missing_value = "ext")]
     #[arg(conflicts_with = "packed")]
     pub(crate) compressed: Option<Meshopt>,
-    /// Write a .glb that holds each part of a yarn once, as long as 16 control points or a cap, and
-    /// the places at which it recurs, as the extension EXT_mesh_gpu_instancing says. Programs that
-    /// don't know the extension refuse the file
+    /// Write a .glb that holds each part of a yarn once, and the places at which the part recurs,
+    /// as the extension EXT_mesh_gpu_instancing says. A part is a cap, or at most 16 intervals
+    /// between control points long. Programs that don't know the extension refuse the file
     #[arg(long, conflicts_with_all = ["packed", "compressed", "attributes"])]
     pub(crate) instanced: bool,
     /// Give the vertices of a .glb, a .ply or a .usda mesh attributes, with commas between: uv is
@@ -202,8 +202,8 @@ pub(crate) struct ConvertArgs {
     /// A .toml design, a draft (.wif, .dtx, .wpo) or a knitout program (.k)
     pub(crate) design: PathBuf,
     /// The file to write: .toml, which holds woven cloth without its shaft draft, knits from charts
-    /// and pictures, and warp knits; .wif, which other weaving programs read; or .k, for knits that
-    /// came from a knitout program
+    /// and pictures, and warp knits without a Jacquard bar; .wif, which other weaving programs
+    /// read; or .k, for knits that came from a knitout program
     #[arg(value_name = "OUTPUT", value_parser = file_of(&["wif", "toml", "k", "knitout"]))]
     pub(crate) output: PathBuf,
 }

@@ -11,7 +11,7 @@ pub(crate) fn is_yarns(path: &Path) -> bool {
     ends_in(path, &["yarns"])
 }
 
-/// Whether a path names a file of curves.
+/// Whether a path names a file of curves that texere can write.
 pub(crate) fn is_curves(path: &Path) -> bool {
     CurveFormat::from_path(path).is_ok()
 }

@@ -85,7 +85,7 @@ impl SettingsArgs {
                 Some(TopologyArg::None) => Topology::None,
             },
             caps: self.caps,
-            // Files have no packed vertices.
+            // The quantum is for packed vertices in memory, and no file is written from these.
             ..Settings::default()
         }
     }

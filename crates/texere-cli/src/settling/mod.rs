@@ -21,7 +21,8 @@ pub(crate) fn said(report: &SettlingReport) -> String {
 }
 
 /// The cloth of a design, with splines of `tension`. If its yarns settle, by the command line or
-/// else by the design, the device that `open` gives does the work, and there is a report.
+/// else by the design, there is a report. The device that `open` gives does the work. The CPU
+/// stands in for a device that can't do it, see [`stand_in`].
 pub(crate) fn cloth<D: Deref<Target = dyn Backend>>(
     mut design: Design,
     args: &SettlingArgs,

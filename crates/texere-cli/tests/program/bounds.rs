@@ -73,8 +73,8 @@ fn what_is_out_of_proportion_is_refused_in_little_memory() {
     }
 }
 
-/// Designs with a picture of `side` pixels a side, white with one black pixel: a Jacquard of either
-/// kind, and a chart.
+/// Designs with a picture of `side` pixels a side, white with one black pixel: a weft-knitted
+/// Jacquard, a chart of one yarn, and a warp-knitted Jacquard.
 fn pictured(side: usize) -> [String; 3] {
     let sett = "wales_per_cm = 9\ncourses_per_cm = 13\n";
     let yarns = "[yarns.a]\ndiameter_mm = 0.1\n[yarns.b]\ndiameter_mm = 0.1\n";

@@ -51,8 +51,8 @@ fn our_own_designs_are_clean() {
     }
 }
 
-/// Plain weave at twice Ashenhurst's sett has a spacing at which it would rest, and that spacing
-/// does. So has the same cloth of yarns that could be squeezed more: they would need less of it.
+/// Plain weave at twice Ashenhurst's sett is jammed. The check names a wider spacing, at which the
+/// cloth does come to rest. Yarns that can be squeezed more need less spacing.
 #[test]
 fn cloth_at_rest_is_jammed_where_its_fibres_have_no_room() {
     let folder = TempDir::new().unwrap();
@@ -76,7 +76,7 @@ fn cloth_at_rest_is_jammed_where_its_fibres_have_no_room() {
         let (spacing, _) = wider["value"].as_str().unwrap().split_once(", ").unwrap();
         let spacing: f64 = spacing.parse().unwrap();
         assert_eq!(written(spacing, 30.0, yarn).0, 0, "{spacing}");
-        // The thinner yarn of the cure is one of less tex, as a design without a diameter gives it.
+        // The design gives tex and no diameter, so the cure's thinner yarn is one of less tex.
         let thinner = cure(&report, "diameter_mm of every yarn").unwrap_or_else(|| panic!("{words}"));
         let effect = thinner["effect"].as_str().unwrap();
         let (_, times) = effect.split_once("with ").unwrap_or_else(|| panic!("{effect}"));
@@ -154,7 +154,8 @@ fn how_exact_touching_is_can_be_said() {
     let folder = TempDir::new().unwrap();
     let path = twill(folder.path(), "shape = \"crossing\"", 0.9, 0.9);
     assert_eq!(check(&path, &[]).0, 0);
-    // One point a crossing is clear to 0.99, not better.
+    // With one control point a crossing the clearance is some 0.99. That passes the usual check,
+    // but not one with an accuracy of 0.001.
     let (code, report) = check(&path, &["--accuracy", "0.001"]);
     assert_eq!(code, 4, "{report}");
     assert!(report["folds"].is_null() && report["jams"].is_null());
@@ -268,8 +269,8 @@ fn knits_that_fall_apart_are_named_as_woven_cloth_is() {
 }
 
 /// Rings follow even a hard twist of 2,000 turns a metre, four turns from pick to pick, so that no
-/// tube is wrung. 80,000 turns a metre are half a turn from ring to ring even in the finest mesh,
-/// and are reported.
+/// tube is wrung. 80,000 turns a metre are over half a turn from ring to ring even in the finest
+/// mesh that is chosen for twist, and are reported.
 #[test]
 fn a_mesh_that_twist_wrings_is_told() {
     let folder = TempDir::new().unwrap();

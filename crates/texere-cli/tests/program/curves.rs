@@ -7,7 +7,8 @@ use serde_json::Value;
 use crate::rest::DESIGNS;
 use crate::{inspect, stderr, stdout, texere};
 
-/// Curves of another program, with a diameter and a unit, have the mesh of the same yarns.
+/// Curves of an OBJ file, with a diameter and a unit, have the same mesh as after they are saved as
+/// a BCC file.
 #[test]
 fn curves_of_another_program_are_meshed_and_drawn() {
     let folder = tempfile::tempdir().unwrap();

@@ -77,8 +77,8 @@ fn a_polygon_has_as_many_sides_as_corners() {
         let output = texere(&["mesh", path, "--no-settle", "-o", mesh.to_str().unwrap()]);
         assert!(output.status.success() && mesh.exists(), "{output:?}");
         std::fs::remove_file(&mesh).unwrap();
-        // Other sides than a polygon's corners are refused, and before anything else of a cloth
-        // that can't come to rest.
+        // A number of sides other than that of the polygon's corners is refused. The refusal comes
+        // before that of a cloth that can't come to rest.
         let cloth = std::fs::read_to_string(path).unwrap();
         std::fs::write(path, cloth.replace("settle = false", "stretch_warp = 1.9")).unwrap();
         assert_eq!(texere(&["inspect", path]).status.code(), Some(3));

@@ -125,7 +125,8 @@ mod unix {
     fn a_signal_leaves_nothing_and_is_what_the_program_dies_of() {
         let signals = [("INT", 2), ("TERM", 15), ("HUP", 1), ("USR1", 10), ("XFSZ", 25)];
         // LLVM, with which drivers of software devices compile kernels, sets handlers of its own.
-        // They pass over the first of these signals.
+        // With these handlers, the first signal of each of the following kinds does not end a
+        // program.
         let passed_over = [("QUIT", 3), ("USR1", 10), ("XCPU", 24)];
         let cases = signals.map(|signal| ("cpu-serial", signal));
         for (device, (signal, number)) in cases.into_iter().chain(passed_over.map(|signal| ("auto", signal)))
@@ -147,8 +148,8 @@ mod unix {
     #[cfg(target_os = "linux")]
     const ENDINGS: [&str; 7] = ["glb", "ply", "stl", "obj", "yarns", "bcc", "usda"];
 
-    /// Old files of a cloth: those that `extension` has a writer of its own for, and a library of
-    /// materials.
+    /// Writes two old files of a cloth: one that ends in `extension`, and a library of materials.
+    /// Returns the names of all files in the folder.
     fn old_files(folder: &Path, extension: &str) -> Vec<String> {
         for name in [&format!("cloth.{extension}"), "cloth.mtl"] {
             fs::write(folder.join(name), "old").unwrap();
@@ -198,8 +199,8 @@ mod unix {
         Command::new("id").arg("-u").output().unwrap().stdout == b"0\n"
     }
 
-    /// Lets a user who is not root write the cloth of `plain.toml` to `name` in `folder`, which may
-    /// not succeed.
+    /// Makes a user who is not root write the cloth of `plain.toml` to `name` in `folder`. Asserts
+    /// that the user lacks the permission.
     #[cfg(target_os = "linux")]
     fn refused_to_nobody(program: &Path, folder: &Path, name: &str) {
         let output = Command::new(program)

@@ -213,14 +213,14 @@ fn stretched_cloth_keeps_its_yarn() {
     assert!((kept / yarn - 1.0).abs() < 2e-3 && crimped > 0.1, "{yarn} {kept}, {crimped}");
     let output = texere(&["inspect", &at(&sheeting("stretch_warp = 1.3"), "sheeting.toml")]);
     assert!(!output.status.success() && stderr(&output).contains("straight at 1.07"), "{}", stderr(&output));
-    // Its spacings are not those of the design, so no others are recommended.
+    // Stretched cloth has other spacings than its design, so no spacings are recommended.
     let stretched = sheeting("stretch_warp = 1.03");
     let said = stdout(&texere(&["check", &at(&stretched, "sheeting.toml"), "--accuracy", "0.001"]));
     assert!(said.contains("cure  none was looked for: the design stretches the cloth"), "{said}");
 }
 
-/// A warp knit that pierces as it is drawn. Settling measures upright ellipses of one repeat, while
-/// the drawn surfaces of the whole cloth have plies.
+/// A warp knit whose drawn surfaces pierce one another. Settling measures upright ellipses of one
+/// repeat, while the drawn surfaces of the whole cloth have plies.
 const PIERCES_AS_DRAWN: &str = "[warp_knit]\nwales = 2\ncourses = 4\nneedles_per_inch = 20.0388\ncourses_per_cm = 15.3001\ncompression = 0.8019\n\
     [[warp_knit.bars]]\nlapping = \"tricot\"\nstep = 2\nthreading = [\"b\", \"b\"]\n\
     [[warp_knit.bars]]\nlapping = \"8-10//\"\nstep = 2\nthreading = [\"a\", \"b\"]\nrun_in_mm = 865.8104\n[finish]\nlength = 1.8704\n\

@@ -73,8 +73,8 @@ fn length(a: [f64; 3]) -> f64 {
 
 /// The turn of the ring `other` against the ring `one` before it, in degrees, right-handed along
 /// the yarn. The directions to the first corner of each ring are compared as seen along the chord
-/// between the rings. For short steps this angle is nearly the turn of `other` against `one`
-/// carried along to it without turning.
+/// between the rings. For short steps this angle is nearly the turn of `other` against a copy of
+/// `one` that is carried to `other` without turning.
 fn turn(one: &[[f64; 3]; 6], other: &[[f64; 3]; 6]) -> f64 {
     let chord = between(centre(one), centre(other));
     let along = chord.map(|each| each / length(chord));

@@ -36,9 +36,9 @@ fn bars_are_told_and_the_guide_under_a_point_is_named() {
     assert_eq!(lappings, ["1-0/2-3//", "1-2/1-0//"]);
     // Two bars of 18 guides make 24 courses.
     assert_eq!((&report["loops"], &report["yarns"]), (&(2 * 18 * 24).into(), &36.into()));
-    // The left leg of the loops on needle 5, counted from 0, of the course that begins at 6 x 0.75
-    // = 4.5 mm: course 7. In odd courses the front bar laps 1-0, so its guide 5, counted from 0, is
-    // there. The back bar laps 1-2, so its guide 4 is there.
+    // The point lies on the left leg of the loops on needle 5, counted from 0. It lies in course 7,
+    // which begins at 6 x 0.75 = 4.5 mm. In odd courses the front bar laps 1-0, so its guide 5,
+    // counted from 0, is on that needle. The back bar laps 1-2, so its guide 4 is there, too.
     let at = report["at"].as_array().unwrap();
     let told: Vec<_> = at.iter().map(|under| (&under["yarn"], &under["place"])).collect();
     let [front, back, course] = ["guide bar 1, guide 6", "guide bar 2, guide 5", "course 7"].map(Value::from);

@@ -250,7 +250,8 @@ fn a_window_shows_turns_names_edits_and_reloads_a_cloth() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Cloth that settles is shown at once, and again at rest. A click names its threads both times.
+/// Cloth that settles is shown at once, and again at rest. A click names the threads of the cloth
+/// at rest.
 #[test]
 fn cloth_is_shown_before_it_settles_and_after() {
     let folder = folder("settles");

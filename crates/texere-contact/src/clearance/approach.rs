@@ -8,8 +8,8 @@ use super::interval::{At, Cubic};
 use super::passing::LEVEL;
 use super::support::Support;
 
-/// How near to a knot a parameter counts as at the knot, in intervals. With half the value, and
-/// with twice, no test is red.
+/// A parameter that is no further from a knot than this counts as at the knot, in intervals. With
+/// half the value, and with twice, no test is red.
 const AT_KNOT: f64 = 1e-6;
 
 /// How far refinement may leave an interval before the approach belongs to another one, in

@@ -9,9 +9,9 @@ pub const CLEARANCE_NEAR: f64 = 1.1;
 
 /// The least ratio at which surfaces do not pierce one another.
 ///
-/// Splines through points at which round threads just touch come as near as 0.987 between the
-/// points (poplin, docs/BENCHMARKS.md). Woven cloth at rest is brought to 0.986. With a limit of
-/// 0.99 both would be faults.
+/// Splines through points at which threads just touch come as near as 0.987 between the points
+/// (denim, docs/BENCHMARKS.md). Woven cloth at rest is brought to 0.986. With a limit of 0.99 both
+/// would be faults.
 pub const CLEAR: f64 = 0.985;
 
 /// The accuracy of a ratio. Yarns at a ratio of 0.999 count as touching.

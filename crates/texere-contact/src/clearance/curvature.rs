@@ -219,12 +219,12 @@ impl Search<'_> {
     }
 }
 
-/// The least radius of curvature of an interval over how far the section reaches into the bend, and
-/// the parameter of that bend. None unless the ratio is clearly less than `within`. The ratio is
-/// exact to [`ACCURACY`], and 0 if the yarn turns straight back.
+/// The ratio and the parameter of the tightest bend of an interval. The ratio is the radius of
+/// curvature divided by the section's reach into the bend. None unless the ratio is clearly less
+/// than `within`. The ratio is exact to [`ACCURACY`], and 0 if the yarn turns straight back.
 ///
-/// Sections stand upright, or by the yarn's up directions. With `turning` each counts with the
-/// furthest reach of any roll.
+/// Sections stand upright, or by the yarn's up directions. With `turning` each section counts with
+/// its furthest reach at any roll.
 pub(super) fn tightest(cubic: &Cubic, support: &Support, turning: bool, within: f64) -> Option<(f64, f64)> {
     let whole = Part::whole(cubic);
     let [u, v, w] = whole.velocity;

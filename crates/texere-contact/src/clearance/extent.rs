@@ -18,7 +18,7 @@ pub(super) struct Extent {
     middle: DVec3,
     /// Half width and half height in the middle, mm.
     halves: [f64; 2],
-    /// Half axes of the sections, as long as the sections reach along them.
+    /// Half axes of ellipses that hold the sections.
     axes: [[DVec3; 2]; 3],
 }
 

@@ -122,7 +122,8 @@ impl<'a> Line<'a> {
         cubic.with_ups([own, (own + 1) % ups.len()].map(|point| ups[point]))
     }
 
-    /// A box that holds everything within `margin` times the section's reach of an interval.
+    /// A box that holds all places no further from an interval than `margin` times the section's
+    /// reach.
     ///
     /// The box serves to find neighbours. It is in single precision, and a little too large.
     #[inline]
@@ -148,7 +149,7 @@ impl<'a> Line<'a> {
     }
 
     /// Whether the yarn leads on so straight from one interval to a later one that the two touch at
-    /// a common knot at most.
+    /// most at a common control point.
     ///
     /// The test is whether the tangents lie within 45 degrees of one direction. Then no part of the
     /// yarn leads back. Two places that lie π/2 times their reach apart along the yarn are more

@@ -59,8 +59,8 @@ pub struct Clearance {
     /// each pair of control intervals.
     pub contacts: u64,
     /// Number of contacts whose ratio is below 1 by more than [`CLEARANCE_ACCURACY`]. Threads that
-    /// touch by construction have many such contacts, since splines between their control points
-    /// come to 0.99.
+    /// touch by construction have many such contacts, since the ratio falls to 0.99 between the
+    /// control points of their splines.
     pub below_one: u64,
     /// Number of contacts that pierce: their ratio is below [`CLEAR`].
     pub piercing: u64,
@@ -69,15 +69,15 @@ pub struct Clearance {
     /// Numbers of contacts by ratio, in steps of [`CLEARANCE_BIN`]: in \[0, 0.01), \[0.01, 0.02)
     /// and so on to [`CLEARANCE_NEAR`].
     pub histogram: Vec<u64>,
-    /// The least radius of curvature, over how far the section reaches into the bend. A round
-    /// section reaches as far as its radius, and a section that turns as far as it may reach with
-    /// any roll. Below 1 the tube folds into itself. The value is infinite if all yarns are
-    /// straight, and exact to a thousandth.
+    /// The least radius of curvature, divided by the section's reach into the bend. A round section
+    /// reaches as far as its radius. A section that turns counts with its furthest reach at any
+    /// roll. Below 1 the tube folds into itself. The value is infinite if all yarns are straight,
+    /// and exact to a thousandth.
     pub curvature_min: f64,
     /// The place of the tightest bend.
     pub curvature_at: Option<YarnPlace>,
     /// The worst of the places that are too crowded to be measured. The numbers above leave out
-    /// contacts there.
+    /// some or all contacts there.
     pub crowd: Option<Crowd>,
     /// Pairs of control intervals that were compared, a measure of the work: [`CLEARANCE_PAIRS`]
     /// for each control point at most.
@@ -94,9 +94,9 @@ pub struct Clearance {
 ///
 /// Two places of one yarn count if they are at least π/2 times the sum of their radii apart along
 /// the chords between control points. Nearer places can only meet in a bend tighter than the yarn
-/// is thick, which shows in the curvature (Schur's theorem: no curve with that curvature brings its
-/// ends closer than the circle does). A loop within one control interval shows in the curvature
-/// too, and is no contact.
+/// is thick, which shows in the curvature (Schur's theorem: a curve that nowhere bends more tightly
+/// than a circle brings its ends no closer than an arc of that circle of the same length does). A
+/// loop within one control interval shows in the curvature too, and is no contact.
 ///
 /// Yarns that are several times as thick as they lie apart are not compared in pairs, but reported
 /// as [`Clearance::crowd`]. Time therefore grows with the control points alone. Flat sections take
@@ -155,9 +155,10 @@ pub fn clearance_with_progress(
 }
 
 /// Measures the [`clearance()`] of the intervals for which `fresh` holds, among themselves and from
-/// all other intervals. `fresh` gets the number of an interval's first control point. `[near,
-/// ratio]` are limits. No contact beyond `near` is looked for. If `ratio` is finite, all contacts
-/// up to `ratio` are listed, worst first, instead of the worst [`CONTACTS_LISTED`].
+/// all other intervals. The curvature is that of all intervals. `fresh` gets the number of an
+/// interval's first control point. `[near, ratio]` are limits. No contact beyond `near` is looked
+/// for. If `ratio` is finite, all contacts up to `ratio` are listed, worst first, instead of the
+/// worst [`CONTACTS_LISTED`].
 ///
 /// **Errors**: the errors of [`clearance_with_progress`].
 pub fn clearance_up_to(
@@ -173,7 +174,8 @@ pub fn clearance_up_to(
 /// The intervals for which `fresh` holds and that bend more tightly than `ratio`, in the measure of
 /// [`Clearance::curvature_min`]. Each comes with its ratio and the place of its tightest bend.
 ///
-/// **Errors**: [`ContactError::Settings`] as of [`clearance()`], and [`ContactError::OutOfMemory`].
+/// **Errors**: [`ContactError::Settings`] as for [`clearance()`], and
+/// [`ContactError::OutOfMemory`].
 pub fn bends_up_to(
     yarns: &Yarns,
     settings: &Settings,
@@ -189,9 +191,9 @@ pub fn bends_up_to(
     Ok(spans.par_iter().flat_map_iter(|span| probe.bends(span, &rolls, ratio, &fresh)).collect())
 }
 
-/// The clearance of the intervals of `yarns` for which `fresh` holds, of contacts within `near`.
-/// The worst contacts are listed if `ratio` is infinite, and all contacts up to `ratio` if it is
-/// finite.
+/// The clearance of the intervals of `yarns` for which `fresh` holds, by their contacts within
+/// `near`, and the curvature of all intervals. The worst contacts are listed if `ratio` is
+/// infinite, and all contacts up to `ratio` if it is finite.
 fn measured(
     yarns: &Yarns,
     settings: &Settings,

@@ -2,14 +2,15 @@
 //!
 //! Quick tests rule out most pairs: neighbours along a yarn, intervals whose chords are too far
 //! apart, surfaces with a plane between them. In all other pairs the search starts from the places
-//! where the chords of both curves come near.
+//! where the chords of both curves come near. A *valley* is a stretch along which the distance of
+//! the curves hardly changes.
 //!
 //! ```text
 //! if the yarn only leads on, or the chords are too far away: nothing
 //! if a section has lobes or turns:  touch() from all approaches of the chords
 //! if a plane lies between them:     nothing
 //! for each approach of the chords:  keep its nearest place, refined
-//! while that lies in a valley:      keep a nearer place, if the hulls leave room for one
+//! while a place lies in a valley:   keep a nearer place, if the hulls leave room for one
 //! if the yarn folds in the valley:  keep the nearest places of fine chords, refined
 //! ```
 
@@ -128,7 +129,7 @@ impl<'a> Pair<'a> {
     }
 
     /// Whether the straight lines between the ends of each interval are too far from one another
-    /// for a contact, with the most that the curves may bend.
+    /// for a contact, even if the curves bend as far as they may.
     fn is_far(&self) -> bool {
         let [a, b] = self.curves;
         let straight = [a, b].map(|curve| [curve.cubic.position(0.0), curve.cubic.position(1.0)]);
@@ -202,8 +203,8 @@ impl<'a> Pair<'a> {
                 add(place, ratio);
             }
         };
-        // On one yarn, the knot that two intervals share is nearest of all and hides an approach
-        // further along.
+        // On one yarn, the control point that two intervals share is nearest of all and hides an
+        // approach further along.
         self.chords(self.same && round, |starts| {
             // The first start may lead out of the interval to another approach.
             let reached = starts.into_iter().find_map(|start| match round {

@@ -131,8 +131,8 @@ impl Rolls {
         let segment = Segment::new(&window, self.sampling.s());
         let count = self.sampling.subdivisions() + 1;
         let at = |ring: u32| match next {
-            // If the velocity is 0 at the knot, the yarn may leave in another direction than it
-            // came from.
+            // If the velocity is 0 at the control point, the yarn may leave in another direction
+            // than that in which it arrived.
             Some(next) if ring == count => Segment::new(&next, self.sampling.s()).sample(0.0),
             None if ring == count => segment.sample(1.0),
             _ => segment.sample(ring as f32 * self.sampling.step()),
@@ -200,9 +200,9 @@ impl IntervalRolls {
         let place = t * steps as f64;
         let before = (place.max(0.0) as usize).min(steps - 1);
         let (from, share) = (self.at_rings[before], place - before as f64);
-        // Rolls are measured from the upright frame, which may flip between two rings. A section in
-        // a rotation-minimising frame does not flip, so its roll is computed at `t` instead of
-        // mixed from both rings.
+        // In a rotation-minimising frame, rolls are measured from the upright frame, which may flip
+        // between two rings. The section itself does not flip, so its roll is computed at `t`
+        // instead of mixed from both rings.
         let carried = self.minimizing.and_then(|(twist, given_back)| {
             let [start, velocity, _] = cubic.path(before as f64 / steps as f64);
             let [end, end_velocity, _] = cubic.path(t);

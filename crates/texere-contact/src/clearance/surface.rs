@@ -47,9 +47,10 @@ impl Stand {
         self.frame[0] * point.x + self.frame[1] * point.y
     }
 
-    /// `direction` in the coordinates of the section after the section is turned by its roll: its
-    /// components along side and up, times half width and half height. Its dot product with a point
-    /// of the section is the point's reach along `direction`.
+    /// `direction` in the coordinates of the section after the section is turned by its roll: the
+    /// components of `direction` along side and up, times half width and half height. The dot
+    /// product of the result and a point of the turned section is the point's reach along
+    /// `direction`.
     fn across(&self, direction: DVec3) -> DVec2 {
         DVec2::new(direction.dot(self.frame[0]), direction.dot(self.frame[1])) * self.sizes
     }

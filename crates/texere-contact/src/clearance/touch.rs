@@ -41,7 +41,7 @@ const POINTS_LOBED: usize = 96;
 const STEP: f64 = 0.25;
 
 /// The step along the yarn between sections that are tried, in turns of either yarn's roll. The
-/// shorter of both steps counts.
+/// shorter of this step and [`STEP`] counts.
 const STEP_TURNS: f64 = 1.0 / 72.0;
 
 /// The height of lobes and flat sides, as a share of the reach of both surfaces, up to which they

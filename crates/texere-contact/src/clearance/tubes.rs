@@ -16,8 +16,8 @@ use super::interval::At;
 /// twice, no test is red.
 const PARALLEL: f64 = 0.02;
 
-/// The ratio of tubes above which their surfaces count as apart, too. With half the value,
-/// `flattened_yarns_are_measured_by_their_surfaces` is red; with twice, no test is.
+/// The ratio of tubes above which the yarns' true surfaces count as apart, too. With half the
+/// value, `flattened_yarns_are_measured_by_their_surfaces` is red; with twice, no test is.
 const FAR: f64 = CLEARANCE_NEAR + 0.1;
 
 /// The cosine of the angle up to which two yarns count as running side by side. With half the

@@ -51,11 +51,12 @@ const TASK: usize = 1024;
 /// apart all the way have not passed through one another. Two intervals can only meet if their
 /// distance before or after is no more than their motion against one another, so only such pairs
 /// are tested. The distance within which pairs are tested is a quarter of a window at most. If two
-/// intervals have moved against one another by more than twice that distance, their windows are
-/// compared in any case. For yarns that are shifted, bent or stretched together, or slide beside
-/// one another, no integral is computed.
+/// intervals within this distance, before or after, have moved against one another by more than
+/// twice the distance, their windows are compared without the test. For yarns that are shifted,
+/// bent or stretched together, or slide beside one another, no integral is computed.
 ///
-/// Two pieces of one yarn count like pieces of two yarns if their windows are apart. A yarn that
+/// Two pieces of one yarn count like pieces of two yarns if they lie six control intervals or more
+/// apart. If need be, their windows are cut short, so that the windows do not overlap. A yarn that
 /// slips past a cut end has passed through nothing. With a repeat in `boundary`, yarns meet the
 /// copies of other yarns, and windows go on over the edge. A point of `after` that has left the
 /// repeat must stay where it is, and must not be moved back into the repeat. Only centrelines are

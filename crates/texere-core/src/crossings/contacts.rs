@@ -15,12 +15,13 @@ pub const MARGIN: f32 = 0.006;
 /// `energy_goes_down_while_penalties_stay`).
 pub const NEAR: f32 = 0.02;
 
-/// The weight of the gap between the two threads of a crossing that bend round one another. Without
-/// it, threads of dense cloth stand off one another where they cross, because a thread fits between
-/// others more easily the further these are apart in height. On their way they then pierce one
-/// another: 2/2 twill at 1.14 times Ashenhurst's sett comes to a clearance of 0.85, and with 100 to
-/// 0.985. 10, 30, 100 and 300 were tried. With 30, denim folds where it binds
-/// (`cloths_of_the_mills_come_to_rest` of texere-fabric).
+/// The weight of the gap between the two threads of a crossing, if both belong to one layer.
+/// Without it, threads of dense cloth stand off one another where they cross, because a thread fits
+/// between others more easily the further these are apart in height. The threads then pierce one
+/// another on their way to the next crossing: 2/2 twill at 1.14 times Ashenhurst's sett comes to a
+/// clearance of 0.85 without the weight, and to 0.985 with a weight of 100. 10, 30, 100 and 300
+/// were tried. With 30, denim folds where it binds (`cloths_of_the_mills_come_to_rest` of
+/// texere-fabric).
 pub const TOUCH: f32 = 100.0;
 
 /// The slope of a layer's thread, divided by that of the straight line between two crossings. The
@@ -28,8 +29,8 @@ pub const TOUCH: f32 = 100.0;
 /// `layers_lie_on_one_another` is red.
 pub const STEEPER: f32 = 1.4;
 
-/// The contact of both threads of a crossing: one lies on top of the other. Threads that bend round
-/// one another touch.
+/// The contact of both threads of a crossing: one lies on top of the other. If both belong to one
+/// layer, they touch.
 pub(super) struct Contact<'a> {
     threads: &'a [Here<'a>; 2],
     /// The side of the end, 1 on the face and -1 on the back.
@@ -178,7 +179,7 @@ impl Here<'_> {
         let opening = Opening { across, rise, halves, thread };
         let (start, room) = opening.start();
         // Most passages leave plenty of room at the first slope, and Newton's method finds no less.
-        // Such a passage adds no force. It is left out if it can't be the least clearance, either.
+        // Such a passage adds no force. It is left out unless its clearance may be the least.
         let is_roomy = across > 0.0 && room - MARGIN > NEAR;
         if is_roomy && block.clearance < 1.0 + room / opening.need_most() {
             return;
@@ -253,8 +254,9 @@ impl Here<'_> {
     }
 
     /// Adds the clearance of neighbours `gap` apart half way between two crossings, where they are
-    /// clear as ellipses. Threads further apart than the next are neighbours of one level. They
-    /// have to be so at both crossings, because levels change where layers change places.
+    /// clear as ellipses. Two threads with others between them are neighbours only if they are of
+    /// one level. They have to be so at both crossings, because levels change where layers change
+    /// places.
     fn half_way(&self, block: &mut CrossingBlock, along: i32, across: i32, gap: f32) {
         let beside = |along, across| self.plan.beside(self.site, self.set, along, across);
         let Some(next) = beside(along, 0) else { return };

@@ -6,7 +6,7 @@
 //! makes the passes on a device, and [`settle`] calls the settler until the cloth is at rest. All
 //! devices share the definitions in this module. [`CrossingsPlan::block`] gathers the energy's
 //! terms at one crossing. [`CrossingsPlan::moved`] makes the crossing's step.
-//! [`CrossingsPlan::ahead`] gives the state that neighbouring crossings read in the next pass.
+//! [`CrossingsPlan::ahead`] gives the state that the next pass reads of the crossing.
 
 mod block;
 mod contacts;

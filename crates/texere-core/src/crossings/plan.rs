@@ -34,11 +34,12 @@ const LEAST_AREA: [f32; 2] = [0.0, 1.0];
 
 /// The factor by which the weft is tauter than the warp. In very dense cloth one set takes most of
 /// the crimp, although warp and weft are alike. Without this factor, rounding would choose the set,
-/// and devices would disagree. With 1.002, 3/1 twill at 1.04 times Ashenhurst's sett crimps in the
-/// weft, and a little closer or further apart in the warp (`crimp_and_thickness_follow_the_sett` of
-/// texere-fabric). With 1.02, square plain weave has 2 % more crimp in the warp than in the weft
-/// (`balanced_plain_weave_is_alike_both_ways`). With half its difference to 1,
-/// `mirrored_cloth_rests_mirrored` is red; with twice, `stiff_threads_stay_straight`.
+/// and devices would disagree. With 1.002, 3/1 twill crimps in the weft at 1.04 times Ashenhurst's
+/// sett, and in the warp at setts a little closer or more open
+/// (`crimp_and_thickness_follow_the_sett` of texere-fabric). With 1.02, square plain weave has 2 %
+/// more crimp in the warp than in the weft (`balanced_plain_weave_is_alike_both_ways`). With half
+/// the factor's difference to 1, `mirrored_cloth_rests_mirrored` is red; with twice,
+/// `stiff_threads_stay_straight`.
 const WEFT_TAUTER: f32 = 1.004;
 
 /// The largest height of a thread above or below the middle of the cloth, in units, for each level
@@ -116,8 +117,9 @@ impl CrossingsPlan {
         }
         let neighbours = neighbours(problem)?;
         let levels = f32::from(neighbours.iter().flat_map(|at| at.levels).map(|at| at.of).fold(1, u8::max));
-        // Weights of bends and shapes of at most those of cotton leave penalties the strongest.
-        // Tension and press have less effect on stiffer threads.
+        // If the stiffest thread is stiffer than cotton, all stiffnesses are divided by its
+        // stiffness, so that penalties stay the strongest terms. Tension and press are divided by
+        // the same number, because they have less effect on stiffer threads.
         let stiffest = problem.threads.iter().flatten().map(|thread| thread.stiffness).fold(1.0, f32::max);
         let row = |set: usize| rows(&problem.threads[set], unit, stiffest, HEIGHT * levels);
         Ok(Self {
@@ -139,8 +141,7 @@ impl CrossingsPlan {
     }
 
     /// The bytes that a settler holds besides the plan: three states of each crossing. They are the
-    /// present state, the state that neighbouring crossings read in this pass, and the state that
-    /// they read in the next.
+    /// present state, the state that this pass reads, and the state that the next pass reads.
     #[must_use]
     pub const fn settler_bytes(&self) -> u64 {
         3 * size_of::<CrossingState>() as u64 * self.ups.len() as u64
@@ -176,7 +177,8 @@ impl CrossingsPlan {
         &self.neighbours[self.number(site)]
     }
 
-    /// The tension of a set's threads, about 1 for relaxed cloth.
+    /// The tension of a set's threads: about 1 for relaxed cloth, and less if any thread of the
+    /// cloth is stiffer than cotton.
     #[must_use]
     pub const fn tension(&self, set: Set) -> f32 {
         match set {
@@ -185,9 +187,10 @@ impl CrossingsPlan {
         }
     }
 
-    /// The strength of the press, 1 for relaxed cloth of one level. Cloth of more levels is as many
-    /// times as high, and is pressed less by the square of their number. With the same press, four
-    /// layers pierce one another (`layers_rest_at_any_sett` of texere-fabric).
+    /// The strength of the press: 1 for relaxed cloth of one level, and less if any thread is
+    /// stiffer than cotton. Cloth of several levels is as many times as high, so its press is
+    /// divided by the square of the number of levels. If it were pressed as hard as cloth of one
+    /// level, four layers would pierce one another (`layers_rest_at_any_sett` of texere-fabric).
     #[must_use]
     pub const fn press(&self) -> f32 {
         self.press

@@ -5,9 +5,9 @@ use crate::backend::room;
 
 /// The bounds of a thread's shift sideways: a quarter of the plan's unit, and two fifths of the
 /// distance to the nearer neighbour. The smaller of the two holds. Without bounds, threads pass
-/// through one another. With half of the unit, plain weave of 10 tex with an end of 60 tex keeps
-/// swinging (`neighbours_give_way_to_a_thick_end` of texere-fabric). With half the values,
-/// `energy_goes_down_while_penalties_stay` is red; with twice,
+/// through one another. With half a unit instead of a quarter, plain weave of 10 tex with an end of
+/// 60 tex keeps swinging (`neighbours_give_way_to_a_thick_end` of texere-fabric). With half the
+/// values, `energy_goes_down_while_penalties_stay` is red; with twice,
 /// `turns_of_uneven_picks_do_not_touch`.
 const SIDEWAYS: [f32; 2] = [0.25, 0.4];
 
@@ -28,12 +28,12 @@ pub struct Row {
     pub gap: f32,
     /// The thread's radius.
     pub radius: f32,
-    /// The thread's stiffness against bending, as a share of that of the cloth's stiffest thread if
-    /// this is stiffer than cotton, and otherwise as a multiple of that of cotton.
+    /// The thread's stiffness against bending, as a multiple of cotton's. If the cloth has a thread
+    /// stiffer than cotton, it is a share of the stiffest thread's stiffness instead.
     pub stiffness: f32,
     /// The ratio of width to thickness that the thread tends to.
     pub aspect: f32,
-    /// The weight of the difference from that ratio.
+    /// The weight of the difference from the ratio [`aspect`](Self::aspect).
     pub shape: f32,
     /// The least area of the thread's section, as a share of its area.
     pub least_area: f32,

@@ -7,13 +7,14 @@ use super::{CrossingBlock, CrossingState, CrossingsPlan, Set, Site};
 /// (`dense_twill_comes_to_rest`).
 pub const STEP: f32 = 0.02;
 
-/// The share of a crossing's last step that is added as momentum. 0.8, 0.9, 0.95, 0.98
-/// and 0.99 were tried. With 0.95, denim takes 270 passes, and with 0.98 165.
+/// The share of a crossing's last step that is added as momentum. 0.8, 0.9, 0.95, 0.98 and 0.99
+/// were tried. Denim takes 270 passes with 0.95, and 165 passes with 0.98.
 pub const MOMENTUM: f32 = 0.98;
 
-/// The cosine of the angle between a crossing's last step and the energy's gradient, from which on
-/// the step adds no momentum. From a cosine of 0 on, momentum fades. If momentum ended at once,
-/// rounding could decide whether there is any. 0.02, 0.1 and 0.5 were tried, and differ little.
+/// The least cosine of the angle between a crossing's last step and the energy's gradient at which
+/// the step adds no momentum. Between a cosine of 0 and this one, momentum fades. If momentum ended
+/// at once, rounding could decide whether there is any. 0.02, 0.1 and 0.5 were tried, and differ
+/// little.
 pub const UPHILL: f32 = 0.1;
 
 /// The least and the largest half width, in radii.
@@ -32,9 +33,9 @@ impl CrossingsPlan {
         self.bounded(crossing, step.map(|step| share * step), site)
     }
 
-    /// The state that other crossings read of a crossing that has moved from `was` to `is`: `is`,
-    /// moved on by momentum. `block` has the equations of the step. Momentum that would lead uphill
-    /// in the energy is dropped ([`UPHILL`]). Without that, denim never comes to rest.
+    /// The state that the next pass reads of a crossing that has moved from `was` to `is`. It is
+    /// `is`, moved on by momentum. `block` has the equations of the step. Momentum that would lead
+    /// uphill in the energy fades or is dropped ([`UPHILL`]). Otherwise denim never comes to rest.
     ///
     /// **Source**: O'Donoghue and Candès, "Adaptive restart for accelerated gradient schemes",
     /// Foundations of Computational Mathematics 15, 2015, here for each crossing by itself.

@@ -21,7 +21,7 @@
 //!             neighbour                     they are clear side by side
 //!         for the threads beside it, if they have another level:
 //!             stacked                       they are clear as ellipses
-//!     contact        end and pick lie one on top of the other, and touch if they bend round one another
+//!     contact        end and pick lie one on top of the other, and touch if they are of one layer
 //! ```
 //!
 //! A term that depends on several crossings is computed at each of them. Each crossing keeps the
@@ -115,8 +115,9 @@ impl Here<'_> {
         let slopes = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -aspect / radius)];
         block.add(shape, 1.0, wide - aspect * thick, slopes);
         let gain = wide * thick - self.pass.area;
-        // Near its full area a section grows no faster than a section above it shrinks. Otherwise
-        // it would grow beyond its area in one pass, and shrink back in the next, without end.
+        // A section a little below its full area grows no faster than a section beyond its full
+        // area shrinks. Otherwise the section would grow beyond its area in one pass, and shrink
+        // back in the next, without end.
         let weight = if gain < -NEAR { AREA_LOSS } else { AREA_GAIN };
         let residual = if gain < 0.0 { AREA_LOSS / weight * gain } else { gain };
         let slopes = [(row + WIDTH, thick / radius), (row + THICKNESS, wide / radius)];
@@ -151,8 +152,8 @@ impl Here<'_> {
     }
 
     /// Adds first differences along the thread: tension, and the evenness of sections. A taut
-    /// thread that changes sides pulls apart the threads between which it does, so that ends and
-    /// picks that work as one close up.
+    /// thread that changes sides between two crossed threads pulls these two apart, so that ends
+    /// and picks that work as one close up.
     fn steps(&self, block: &mut CrossingBlock) {
         let (lie, radius) = (self.thread(self.site), self.thread_row().radius);
         let tension = self.plan.tension(self.set) * 4.0 * radius * radius;

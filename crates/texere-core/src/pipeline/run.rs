@@ -73,9 +73,9 @@ impl<'a> Run<'a> {
     /// the plan's yarns, and works out rolls. `progress` is called as
     /// [`Pipeline::progress`](crate::Pipeline::progress) says.
     ///
-    /// `limits` are those that chunks are cut to, if they are stricter than the device's own. If
-    /// chunks are cut to other limits, the results are equal, but tables that were sent for the
-    /// scan of rolls are sent again.
+    /// `limits` are those that the caller cuts chunks to. Where the device's own limits are
+    /// stricter, the device's count. If chunks are cut to other limits, the results are equal, but
+    /// tables that were sent for the scan of rolls are sent again.
     ///
     /// **Errors**: the errors of [`Pipeline::mesh`](crate::Pipeline::mesh).
     pub fn start(

@@ -9,9 +9,9 @@ pub const BLOCK_RINGS: u32 = 64;
 /// A block: up to [`BLOCK_RINGS`] consecutive rings of one yarn. Blocks are the rows of a table. A
 /// kernel reads a block's yarn from the row, without a search.
 ///
-/// **Shape**: eight `u32`, 32 bytes. `first_ring` is counted from the yarn's start, and all other
-/// starts from that of the chunk or of its window. The window is the range of padded control points
-/// that the chunk reads.
+/// **Shape**: eight `u32`, 32 bytes. `first_ring` is counted from the start of the yarn, and
+/// `first_point` from the start of the chunk's window. The window is the range of padded control
+/// points that the chunk reads. All other positions are counted from the start of the chunk.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
 pub struct Block {

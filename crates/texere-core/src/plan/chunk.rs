@@ -63,7 +63,7 @@ pub struct Chunk {
     pub(super) plan: PlanId,
     pub(super) index: u64,
     pub(super) tables: TablesId,
-    /// Ranges of the numbers of the chunk's blocks among all of the plan, in order.
+    /// The chunk's blocks, in order, as ranges of their numbers among all blocks of the plan.
     pub(super) runs: Vec<Range<u64>>,
     pub(super) window: Range<u64>,
     pub(super) blocks: Vec<Block>,

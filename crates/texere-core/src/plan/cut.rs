@@ -230,9 +230,9 @@ impl<'a> Chunks<'a> {
         (inner, ended)
     }
 
-    /// `size` with the whole yarn that begins at `at`, and the block after it. `None` if the run
-    /// ends before that block, or if the plan has room, because the sizes of blocks then do not add
-    /// up to that of the yarn.
+    /// `size` with the whole yarn that begins at `at`, and the block after that yarn. `None` if no
+    /// yarn begins at `at`, or if the run ends before that block. `None`, too, if the plan has
+    /// room: the sizes of blocks then do not add up to that of the yarn.
     fn with_yarn(&self, size: &Size, window: u64, at: Cursor) -> Option<(Size, Cursor)> {
         let blocks = &self.plan.block_offsets()[at.yarn..at.yarn + 2];
         let is_whole = at.block == blocks[0] && blocks[1] < self.plan.runs()[at.run].end;
@@ -272,7 +272,7 @@ impl<'a> Chunks<'a> {
         cut
     }
 
-    /// Ranges of the blocks from the next one on and before `end`.
+    /// The blocks from the next one up to `end`, without `end`, as ranges.
     fn runs_to(&self, end: Cursor) -> Vec<Range<u64>> {
         let runs = (self.next.run..=end.run).filter_map(|run| {
             let all = self.plan.runs().get(run)?;

@@ -32,7 +32,7 @@ impl Plan {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.1)));
     /// # }
     /// # let yarns = yarns.build()?;
-    /// // Two yarns of three points: of five rings of six vertices each, and a cap at either end.
+    /// // Two yarns of three points. Each has five rings of six vertices, and a cap at either end.
     /// let plan = Plan::new(yarns.layout().clone(), Settings { caps: true, ..Settings::default() })?;
     /// let chunk = plan.chunks(&Limits::NONE)?.next().ok_or("no chunk")?;
     /// assert_eq!(plan.place_of_vertex(&chunk, 45), Some(MeshPlace { yarn: 1, ring: 2, side: 3, cap: None }));

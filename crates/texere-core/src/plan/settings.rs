@@ -37,9 +37,9 @@ impl Default for Settings {
     }
 }
 
-/// Checks whether yarns with these sections can be meshed as tubes with so many `sides`, as
-/// [`Plan::new`](crate::backend::Plan::new) does. A program can check it before cloth comes to
-/// rest.
+/// Checks whether yarns with these `sections` can be meshed as tubes with so many `sides`.
+/// [`Plan::new`](crate::backend::Plan::new) makes this check, too. A program can call the function
+/// earlier, before cloth comes to rest.
 ///
 /// ```
 /// use texere_core::{PlanError, Section, check_sides};

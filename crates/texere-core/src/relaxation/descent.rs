@@ -3,13 +3,13 @@
 
 use std::collections::VecDeque;
 
-/// The number of steps that are remembered. With 6, rib takes a third more steps to rest; with 24
-/// as many. With half the value, and with twice, no test is red.
+/// The number of steps that are remembered. With 6, rib takes a third more steps to rest; with 24,
+/// it takes as many as with 12. With half the value, and with twice, no test is red.
 const REMEMBERED: usize = 12;
 
-/// The least cosine between a step and the change of slopes with it. Steps that are nearly
-/// perpendicular to it say nothing about the curvature. With half the value, and with twice, no
-/// test is red.
+/// The least cosine between a step and the change of slopes that the step makes. A step that is
+/// nearly perpendicular to this change says nothing about the curvature. With half the value, and
+/// with twice, no test is red.
 const COSINE: f64 = 1e-12;
 
 /// The last steps, and how they have changed the slopes.
@@ -53,7 +53,7 @@ impl Descent {
     }
 
     /// The direction of the next step, for these slopes. `first` replaces forces by the step that
-    /// they make, as far as is known without what is remembered: a symmetric and positive map.
+    /// they would make if no step were remembered. It must be a symmetric and positive map.
     pub(super) fn direction(&self, slopes: &[f64], first: impl Fn(&mut [f64])) -> Vec<f64> {
         let mut way: Vec<f64> = slopes.iter().map(|slope| -slope).collect();
         let mut shares = Vec::with_capacity(self.steps.len());

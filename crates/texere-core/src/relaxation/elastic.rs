@@ -5,19 +5,19 @@
 /// **Source**: Singal et al. 2024, fitted to the compression of an acrylic yarn.
 const HARDENING: f64 = 2.4;
 
-/// The least share of the shell's thickness, up to which the energy follows the power law. Below
-/// it, the energy is continued by the parabola with equal value, slope and curvature, so that it is
-/// finite for yarns that pierce one another at the start. With half the value, and with twice, no
-/// test is red.
+/// The least share of the shells' thickness for which the energy follows the power law. Below this
+/// share, the energy is continued by the parabola with equal value, slope and curvature. The energy
+/// is therefore finite for yarns that pierce one another at the start. With half the value, and
+/// with twice, no test is red.
 const THINNEST: f64 = 0.02;
 
 /// The elastic properties of a yarn: a core that is hardly ever entered, and a soft shell round it.
 ///
-/// Two yarns touch where their shells overlap. If their centrelines are a distance apart that is
-/// more than the sum of both cores and less than the sum of both shells, y is the share of both
-/// shells' thickness D that is left, from 1 (they just touch) to 0 (the cores touch). The energy
-/// for each mm of either yarn is `k D² / (p (p - 1)) (y^(1 - p) - 1 + (p - 1) (y - 1))`, with p =
-/// 2.4 and the stiffness k.
+/// Two yarns touch where their shells overlap: where the distance of their centrelines is less than
+/// the sum of both shells' radii. D is the thickness of both shells together: that sum less the sum
+/// of both cores' radii. y is the share of D that is left between the cores, from 1 (the shells
+/// just touch) to 0 (the cores touch). The energy for each mm of either yarn is
+/// `k D² / (p (p - 1)) (y^(1 - p) - 1 + (p - 1) (y - 1))`, with p = 2.4 and the stiffness k.
 ///
 /// ```
 /// use texere_core::relaxation::Elastic;

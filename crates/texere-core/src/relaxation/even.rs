@@ -1,4 +1,5 @@
-//! Control points that are spread evenly along their yarn.
+//! Control points that are spread evenly along their yarn. This is done for yarns that go round:
+//! yarns that close, or go on in another repeat.
 //!
 //! An interval keeps its length while yarns relax, so where it is long at the start, the spline
 //! stays coarse. A loop with short and long intervals bends less easily than a loop with equal
@@ -11,13 +12,13 @@ use glam::DVec3;
 use super::node::{GAUSS, Node, blend};
 
 /// Number of intervals over which lengths are averaged: those of a loop of a weft knit. Loops of
-/// warp knits have some less, and floats much longer intervals, which stay longer. With half the
-/// value, and with twice, no test is red.
+/// warp knits have somewhat fewer. Floats have much longer intervals, which stay longer. With half
+/// the value, and with twice, no test is red.
 const LOOP: usize = 12;
 
-/// The rounds of Newton's method that find a place by its distance along an interval. Three do
-/// where speeds differ little, and five where a loop's arc meets a float. With half the value, and
-/// with twice, no test is red.
+/// The rounds of Newton's method that find a place by its distance along an interval. Three are
+/// enough where speeds differ little, and five where a loop's arc meets a float. With half the
+/// value, and with twice, no test is red.
 const ROUNDS: u32 = 5;
 
 /// The parts of an interval whose lengths are added. With one part, places on an interval and on
@@ -38,9 +39,9 @@ pub(super) fn averaged(lengths: &[f64]) -> Vec<f64> {
 }
 
 /// Places on a yarn that goes round, one for each control point, with the distances `even` along
-/// the yarn. The yarn has intervals of these `lengths`; `window` gives the four control points of
-/// each, also of those of rounds before and after. In the mean, places are those of the control
-/// points. `s` is that of [`Node::new`].
+/// the yarn. `lengths` are those of the yarn's intervals. `window` gives the four control points of
+/// an interval by its number, in the rounds before and after, too. In the mean, the places lie as
+/// far along the yarn as the control points. `s` is that of [`Node::new`].
 pub(super) fn spread(
     s: f64,
     lengths: &[f64],

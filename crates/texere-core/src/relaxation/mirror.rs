@@ -15,8 +15,9 @@ use super::RelaxationState;
 /// radius of its core. With half the value, and with twice, no test is red.
 const NEAR: f64 = 1e-3;
 
-/// The most control points of yarns whose mirror image is sought. It is tried for each point at the
-/// height of the first one, and each time as many points are looked up as fit.
+/// The most control points of yarns whose mirror image is sought. Each point with the y and z of
+/// the first one is tried as the image of the first one. Each try looks up the images of points
+/// until one has none.
 const POINTS_MAX: usize = 1 << 14;
 
 /// For each control point the number of its mirror image in x, if all have one. `cores` are the
@@ -47,7 +48,7 @@ pub(super) fn find(state: &RelaxationState, cores: &[f64]) -> Option<Vec<u32>> {
         })
     };
     let (first, own) = (points.first()?, cores.first()?);
-    // Only a point at the height of the first one can be its mirror image.
+    // Only a point with the y and z of the first one can be the mirror image of the first one.
     let level = |(point, core): &(&DVec3, &f64)| {
         *core == own && apart((**point - *first).with_x(0.0), *repeat) <= near
     };

@@ -7,13 +7,16 @@
 //! points:
 //!
 //! ```text
-//! E = B/2 ∫ κ² ds  +  ∬ v(distance) ds ds'  +  EA/2 ∫ (length / length at rest - 1)² ds
-//!     bending         contact of shells        length
+//! E = B/2 ∫ κ² ds  +  ∬ v(distance) ds ds'
+//!     bending         contact of shells
+//!
+//!   + EA/2 ∫ (length / length at rest - 1)² ds  +  P/2 ∫ z² ds
+//!     length                                       press
 //! ```
 //!
 //! κ is the curvature of a centreline. v is the energy of two soft shells that overlap, each round
-//! a hard core: see [`Elastic`]. Forces are in N and energies in N mm. There is no
-//! friction and no twist.
+//! a hard core: see [`Elastic`]. P is the stiffness that [`Relaxation::press`] sets, 0 unless set.
+//! Forces are in N and energies in N mm. There is no friction and no twist.
 //!
 //! A [`Relaxation`] is the problem, a [`RelaxationPlan`] holds its tables, and a [`Relaxer`] works
 //! out energies and forces on a device. [`relax`] calls the relaxer until the forces balance.

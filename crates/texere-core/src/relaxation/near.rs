@@ -13,20 +13,21 @@ use crate::work_watch::WorkWatch;
 use crate::{BackendError, Ends};
 
 /// The margin of the lists, as a share of the least shell: intervals that are further than this
-/// from touching are not listed. With 0.3 lists of rib are made twice as often, and with 1.2 a list
-/// of stockinette is a third longer; both take more time. With half the value, and with twice, no
+/// from touching are not listed. With 0.3, lists of rib are made twice as often. With 1.2, a list
+/// of stockinette is a third longer. Both take more time. With half the value, and with twice, no
 /// test is red.
 const MARGIN: f64 = 0.6;
 
-/// The most neighbours of all intervals, beside [`NEAR_AN_INTERVAL`] for each interval.
+/// The number of neighbours that all intervals together may have in addition to
+/// [`NEAR_AN_INTERVAL`] for each interval.
 const NEAR_FREE: u64 = 1 << 16;
 
-/// The most neighbours that intervals have in the mean, and the most copies of them that lie near.
-/// Stockinette of a yarn with a thick shell has 45 at most.
+/// The most neighbours that intervals may have in the mean. Stockinette of a yarn with a thick
+/// shell has 45 at most. The number of copies in a [`Grid`] has an equal limit.
 const NEAR_AN_INTERVAL: u64 = 256;
 
-/// The copies of intervals that are tried between two questions to the caller, a millisecond of a
-/// slow core.
+/// The number of copies of intervals that are tried between two calls of `watch`. They take a slow
+/// core a millisecond.
 const CANDIDATES: usize = 1 << 16;
 
 /// A neighbour of an interval.
@@ -62,7 +63,8 @@ struct Copied {
 
 impl RelaxationLists {
     /// Whether the lists still hold every neighbour in `state`, for yarns with the share `growth`
-    /// of their thickness. A sample moves by at most 1.25 of the longest move of a control point.
+    /// of their thickness. A sample moves by at most 1.25 times the longest move of a control
+    /// point.
     #[must_use]
     pub fn hold(&self, plan: &RelaxationPlan, state: &RelaxationState, growth: f64) -> bool {
         let (made, grown) = &self.made;
@@ -224,7 +226,8 @@ impl Grid {
                 }
             }
         }
-        // At most three times as many cells as copies: larger cells hold the neighbours, too.
+        // Cells are made so large that there are at most three times as many of them as copies. If
+        // a cell is larger than the reach, neighbours still lie in the cells beside it.
         let size = (high - low).max(DVec2::splat(reach));
         let count = copies.len().max(1) as f64;
         let cell = reach.max((size.x * size.y / count).sqrt()).max(size.max_element() / count);

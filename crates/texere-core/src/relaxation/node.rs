@@ -44,9 +44,9 @@ pub(super) fn blend(weights: &[f64; 4], points: &[DVec3; 4]) -> DVec3 {
     points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2] + points[3] * weights[3]
 }
 
-/// What belongs to an interval's four control points, with what belongs to virtual ends given to
-/// the points that they are computed from. The interval is the first of an open yarn if it `opens`,
-/// and the last one if it `ends`.
+/// Values of an interval's four control points, such as weights or slopes. The values of virtual
+/// ends are moved to the points that these ends are computed from. `opens` says whether the
+/// interval is the first of an open yarn, and `ends` whether it is the last.
 pub(super) fn folded<T>(mut four: [T; 4], [opens, ends]: [bool; 2]) -> [T; 4]
 where
     T: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = T>,

@@ -84,8 +84,8 @@ impl RelaxationInterval {
 }
 
 impl RelaxationPlan {
-    /// Checks a relaxation and makes its plan. The control points of yarns that go round are spread
-    /// along them, unless one is held: the spline stays, but its points are more evenly apart.
+    /// Checks a relaxation and makes its plan. The control points of a yarn that closes, or goes on
+    /// in another repeat, are spread more evenly along its spline, unless one of them is held.
     ///
     /// **Errors**: [`RelaxationError`] for invalid ends, pins, elastic properties or settings, a
     /// yarn of too few control points, an interval without length or with too many samples, and
@@ -173,8 +173,8 @@ impl RelaxationPlan {
     }
 
     /// The lengths of the intervals of yarn number `yarn` at the start, mm. `first` is the number
-    /// of its first interval. If the yarn goes round and no point of it is held, its points are
-    /// spread evenly before.
+    /// of its first interval. If the yarn closes, or goes on in another repeat, and none of its
+    /// points is held, its points are first spread evenly.
     fn lengths(&mut self, yarn: usize, first: usize, s: f64) -> Vec<f64> {
         let RelaxationYarn { first: point, points, ends, .. } = self.yarns[yarn];
         let own = point as usize..(point + points) as usize;
@@ -262,7 +262,8 @@ impl RelaxationPlan {
         self.mirror.as_deref()
     }
 
-    /// The state at the start, with points spread along yarns that go round.
+    /// The state at the start, after control points have been spread as [`RelaxationPlan::new`]
+    /// says.
     #[must_use]
     pub const fn start(&self) -> &RelaxationState {
         &self.start
@@ -276,8 +277,8 @@ impl RelaxationPlan {
         &self.gauss
     }
 
-    /// The numbers of an interval's four control points. For those beyond the end of an open yarn,
-    /// it is the number of the last point.
+    /// The numbers of an interval's four control points. A point beyond an end of an open yarn has
+    /// the number of the yarn's point at that end.
     #[must_use]
     pub fn window(&self, interval: usize) -> [u32; 4] {
         self.window_of(&self.intervals[interval]).map(|(point, _)| point)

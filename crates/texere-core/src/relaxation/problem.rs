@@ -34,7 +34,7 @@ pub struct Relaxation<'a> {
 
 impl<'a> Relaxation<'a> {
     /// A relaxation of yarns with free ends, which keep their lengths. `elastic` has one element
-    /// per yarn. The sections of control points do not count.
+    /// per yarn. The half widths and half heights of control points do not count.
     #[must_use]
     pub fn new(yarns: &'a Yarns, elastic: &'a [Elastic]) -> Self {
         let boundary = Boundary::without_repeat(yarns.layout());
@@ -50,7 +50,7 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Sets how the cloth goes on at its edges. It may be a repeat in x, in y or in both.
+    /// Sets how the cloth goes on at its edges. The cloth may repeat in x, in y or in both.
     #[must_use]
     pub fn boundary(mut self, boundary: Boundary) -> Self {
         self.boundary = boundary;
@@ -80,8 +80,8 @@ impl<'a> Relaxation<'a> {
         self
     }
 
-    /// Sets whether the repeat keeps its length along x and along y. A strain is a repeat that is
-    /// longer than at rest, and held.
+    /// Sets whether the repeat keeps its length along x and along y. A cloth is strained if its
+    /// repeat is longer than at rest, and held.
     #[must_use]
     pub const fn held(mut self, axes: [bool; 2]) -> Self {
         self.held = axes;

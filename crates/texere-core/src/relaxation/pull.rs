@@ -5,6 +5,7 @@
 //!     for each of its samples:                         bend
 //!         add the energy of the curvature there
 //!     add the energy of the length that it has too much or too little
+//!     add the energy of what presses the cloth flat
 //!     for each neighbour, and each sample of both:     press
 //!         if the distance is less than the shells reach, and the samples do not follow one
 //!         another along one yarn:
@@ -262,9 +263,9 @@ impl RelaxationPull {
         }
     }
 
-    /// The slopes at an interval's control points, with what pulls at virtual ends moved to the
-    /// points that they are computed from. Adds to the growth with the repeat what pulls at points
-    /// in the yarn's other rounds.
+    /// The slopes at an interval's control points. The slopes of virtual ends are moved to the
+    /// points that these ends are computed from. Points in other rounds of the yarn move with the
+    /// repeat, so their slopes are added to the growth of the energy with the repeat, too.
     fn fold(
         &mut self,
         plan: &RelaxationPlan,

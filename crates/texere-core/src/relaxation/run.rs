@@ -22,14 +22,15 @@ const GROWTH_STEPS: u32 = 60;
 /// half the value, and with twice, no test is red.
 const BALANCED: f64 = 1e-3;
 
-/// The least force that others are compared with, as a share of the force that bends a yarn over
-/// the radius of its core. Yarns in a knit press with some hundredths of that force. It lets yarns
-/// that touch nowhere come to rest. With half the value, and with twice, no test is red.
+/// The least force that others are compared with, as a share of `B / r²`: the force that bends a
+/// yarn of stiffness B over the radius r of its core. Yarns in a knit press with some hundredths of
+/// that force. The bound lets yarns that touch nowhere come to rest. With half the value, and with
+/// twice, no test is red.
 const FAINT: f64 = 1e-3;
 
-/// The longest step, as a share of the radius that the thinnest core has grown to. If steps are as
-/// long while yarns grow as later, net stays as narrow as its needles. With half the value, and
-/// with twice, no test is red.
+/// The longest step, as a share of the radius that the thinnest core has grown to. If steps while
+/// yarns grow may be as long as later ones, net stays as narrow as its needles. With half the
+/// value, and with twice, no test is red.
 const STEP: f64 = 0.2;
 
 /// The number of steps after which the stiffness of yarns is worked out anew. With 5, lace takes a
@@ -40,12 +41,12 @@ const STIFFENED: u32 = 10;
 /// takes twice as many steps to rest; with 0.01, jersey does.
 const STRAINED: f64 = 0.1;
 
-/// The share of the fall of energy that the slope promises which a step must reach. With half the
-/// value, and with twice, no test is red.
+/// The least fall of energy that a step must reach, as a share of the fall that the slope promises.
+/// With half the value, and with twice, no test is red.
 const FALL: f64 = 1e-4;
 
-/// The factor of a step that did not let the energy fall enough. With half the value, and with
-/// twice, no test is red.
+/// The factor by which a step is made shorter if it did not let the energy fall enough. With half
+/// the value, and with twice, no test is red.
 const SHORTER: f64 = 0.4;
 
 /// The most lengths of a step that are tried, the first of them its full length. With half the
@@ -67,8 +68,8 @@ pub struct Relaxed {
     pub state: RelaxationState,
     /// The energy in the end.
     pub energy: Energy,
-    /// The largest force at a control point that balances no other force, N. The forces on the
-    /// repeat count, too: each as if shared out among all points.
+    /// The largest sum of all forces at a control point, N: what is left unbalanced there. The
+    /// forces on the repeat count, too: each as if shared out among all points.
     pub unbalanced: f64,
     /// The largest force with which yarns press on an interval, N.
     pub pressed: f64,
@@ -78,7 +79,7 @@ pub struct Relaxed {
     pub pull: DVec2,
 }
 
-/// Relaxes yarns on a device. They grow from a third of their thickness while the repeat is held.
+/// Relaxes yarns on a device. They grow from 0.3 of their thickness while the repeat is held.
 /// Then the repeat's lengths become free, unless the plan holds them.
 ///
 /// `watch` is called with the state before each step, and without it while a state is measured. If
@@ -104,9 +105,9 @@ pub fn relax(
     Ok(relaxed.map_continue(|relaxed| Relaxed { measured: relaxed.measured + measured, ..relaxed }))
 }
 
-/// Relaxes yarns that have grown to their thickness, from `state`, one of the plan's yarns. The
+/// Relaxes yarns that have grown to their thickness, from `state`, a state of the plan's yarns. The
 /// repeat keeps its length along the axes that `held` names, whatever the plan says. A cloth is
-/// strained if it is held longer than it is at rest.
+/// strained if its repeat is longer than at rest, and held.
 ///
 /// `watch` is that of [`relax`].
 ///
@@ -133,18 +134,19 @@ pub fn relax_grown(
     }))
 }
 
-/// The unknowns lie in one list: x, y and z of every control point, as if the repeat had the
-/// lengths of `start`, then for both axes the logarithm of the repeat's length over that of
-/// `start`, times `scale`.
+/// A search for the least energy. Its unknowns lie in one list. First come x, y and z of every
+/// control point, as if the repeat had the lengths of `start`. Then comes for each axis the
+/// logarithm of the repeat's length over that of `start`, times `scale`.
 struct Run<'a> {
     plan: &'a RelaxationPlan,
     relaxer: &'a mut dyn Relaxer,
     start: RelaxationState,
     growth: f64,
     held: [bool; 2],
-    /// The unknown of an axis for a strain of 1, mm. It makes a strain as stiff as a point: a
-    /// strain moves neighbouring points apart by the distance of the points, and there are as many
-    /// pairs as points.
+    /// The unknown of an axis for a strain of 1, mm: the mean distance of neighbouring points,
+    /// times the root of the number of points. With this scale a strain is as stiff as a point. A
+    /// strain of 1 moves each point away from its neighbour by their distance, and there are as
+    /// many such pairs as points.
     scale: f64,
     /// The radius of the thinnest core, mm.
     core: f64,
@@ -292,7 +294,8 @@ impl<'a> Run<'a> {
         Stiffness::new(self.plan, &seen.state, &seen.stiffness, watch)
     }
 
-    /// Replaces forces by the step that they make, by the stiffness of yarns alone.
+    /// Replaces forces by the step that they make, worked out from the stiffness of each yarn
+    /// alone.
     fn give(&self, stiffness: &Stiffness, seen: &Seen, forces: &mut [f64]) {
         let factors = self.factors(&seen.at).extend(1.0).to_array();
         let (points, strains) = forces.split_at_mut(forces.len() - 2);
@@ -328,7 +331,8 @@ impl<'a> Run<'a> {
         let mut way = descent.direction(&seen.slopes, |forces| self.give(stiffness, seen, forces));
         let points = way[..way.len() - 2].chunks_exact(3).map(|way| DVec3::from_slice(way).length());
         let longest = points.fold(0.0, f64::max);
-        // A strain moves the furthest points most, but neighbours by no more than this.
+        // A strain moves the furthest points most. Only the move of neighbours against one another
+        // counts. They are taken to be 20 radii of a core apart.
         let strain = way[way.len() - 2..].iter().fold(0.0_f64, |most, way| most.max(way.abs())) / self.scale;
         let moved = longest.max(strain * 20.0 * self.core);
         let most = STEP * self.growth * self.core;

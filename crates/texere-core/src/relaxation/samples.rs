@@ -16,8 +16,8 @@ pub struct RelaxationSamples {
     balls: Vec<Ball>,
 }
 
-/// The samples of an interval: the middle of the box that holds them, and the largest distance of
-/// one of them from it, mm.
+/// A ball that holds the samples of an interval. Its middle is that of the box round the samples.
+/// Its radius, mm, is the largest distance of a sample from the middle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ball {
     pub(super) middle: DVec3,

@@ -19,12 +19,12 @@ const LEAST: f64 = 1e-4;
 /// With half the value, and with twice, no test is red.
 const HELD: f64 = 1e6;
 
-/// The least speed of a spline, as a share of its mean speed in the interval. Where it is slower, a
-/// place would get nearly all of the stiffness. With half the value, and with twice, no test is
-/// red.
+/// The least speed of a spline, as a share of its mean speed in the interval. Without this bound, a
+/// place where the spline is slower would get nearly all of the stiffness. With half the value, and
+/// with twice, no test is red.
 const SLOW: f64 = 0.05;
 
-/// The number of intervals or rows between two questions to the caller.
+/// The number of intervals or rows between two calls of `watch`.
 const PART: usize = 4096;
 
 /// The control points that one interval couples, less 1.
@@ -32,9 +32,9 @@ const COUPLED: usize = 3;
 
 /// The stiffness of all yarns at one state, ready to find the step that balances given forces.
 ///
-/// Bending, length and what presses flat couple the control points of a yarn as far as they do.
-/// Contacts count as if the other yarn stood still. What neither has a part in is left out, above
-/// all the forces that contacts have by turning, so that every stiffness is positive.
+/// Bending, length and press couple the control points of a yarn. Contacts count as if the other
+/// yarn stood still. Terms that could make a stiffness negative are left out, above all the change
+/// of contact forces as contacts turn. Every stiffness is therefore positive.
 #[derive(Debug)]
 pub(super) struct Stiffness {
     yarns: Vec<Envelope>,
@@ -147,8 +147,7 @@ fn add(
     }
 }
 
-/// The matrix that a vector is multiplied by to get its cross product with `vector`, which comes
-/// first.
+/// The matrix that, times any vector v, gives the cross product of `vector` and v, in this order.
 fn crossed(vector: DVec3) -> DMat3 {
     DMat3::from_cols(vector.cross(DVec3::X), vector.cross(DVec3::Y), vector.cross(DVec3::Z))
 }
@@ -217,7 +216,7 @@ impl Envelope {
     }
 
     /// Replaces the matrix by its factor. Pivots that rounding has made less than `least` become
-    /// that.
+    /// `least`.
     fn factor(&mut self, least: f64, watch: WorkWatch<'_>) -> ControlFlow<()> {
         for row in 0..self.rows.len() {
             if row.is_multiple_of(PART) {

@@ -22,8 +22,8 @@ fn sin_cos_at(k: u32, count: u32) -> (f32, f32) {
 }
 
 impl Section {
-    /// The outline of plies that are twisted together, and that nothing presses: of round plies
-    /// that touch, but with valleys no deeper than half way to the axis.
+    /// The outline of plies that are twisted together, and that nothing presses. The plies are
+    /// round and touch, but the valleys between them are no deeper than half way to the axis.
     ///
     /// ```
     /// use texere_core::Section;

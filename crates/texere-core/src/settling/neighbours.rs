@@ -23,9 +23,9 @@ pub struct Listed<'a> {
     pub pieces: u32,
 }
 
-/// The least length of yarn between two neighbouring chords of one yarn, as a multiple of the sum
-/// of both radii. To come back to within that sum of itself, a yarn needs at least a half circle of
-/// that diameter.
+/// The least length of yarn between two chords of one yarn that count as neighbours, as a multiple
+/// of the sum of both radii. A yarn that comes as near to itself as that sum has made at least a
+/// half circle, with the sum as its diameter.
 pub const LEADS_ON: f32 = FRAC_PI_2;
 
 impl<'a> Listed<'a> {

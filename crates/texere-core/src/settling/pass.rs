@@ -101,9 +101,9 @@ pub const CONTACTS_MIN: f32 = 0.64;
 pub const BENDS_MIN: f32 = 0.3;
 
 /// The distance, divided by the sum of both reaches, below which only contacts move the points of
-/// two yarns. Without this bound a strong tension can squeeze yarns through one another in spite of
-/// the limit of steps. With twice the value, `a_settled_repeat_fits_its_copies` is red; with half,
-/// no test is.
+/// two yarns. This bound acts in the weighted form alone. Without it a strong tension can squeeze
+/// yarns through one another in spite of the limit of steps. With twice the value,
+/// `a_settled_repeat_fits_its_copies` is red; with half, no test is.
 pub const CROSSING: f32 = 0.3;
 /// The growth of all other pulls with the distance beyond [`CROSSING`]. They have full strength at
 /// 0.7. With half the value, `a_settled_repeat_fits_its_copies` is red; with twice, no test is.

@@ -90,7 +90,7 @@ pub struct Spans {
     pub thickest: f32,
     /// The unit of [`SettlingPlan::along`], mm.
     pub along: f32,
-    /// The length of the longest chord at the start.
+    /// The length of the longest chord, by the lengths that intervals are to have.
     pub longest_chord: f32,
 }
 
@@ -348,7 +348,7 @@ impl SettlingPlan {
             .map(|(place, _)| 2.0 * place.halves.width().min(place.halves.height()))
             .fold(f32::INFINITY, f32::min);
         let factor = if let Length::Given(factor) = length { factor } else { 1.0 };
-        // The most that an interval's length may grow by.
+        // The largest length that an interval may get, as a multiple of its length at the start.
         let most = if let Length::Free { .. } = length { FREE_MOST } else { factor };
         let mut chords = 0_u64;
         for place in 0..self.places.len() {

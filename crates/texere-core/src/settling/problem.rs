@@ -28,7 +28,7 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// A settling of yarns with free ends, which keep their length and are not pressed. The
+    /// A settling of yarns that have free ends, keep their length and are not pressed. The
     /// [tension](crate::Layout::tension) of their splines may be 0.99 at most.
     #[must_use]
     pub fn new(yarns: &'a Yarns) -> Self {
@@ -42,7 +42,7 @@ impl<'a> Settling<'a> {
         }
     }
 
-    /// Sets how the cloth goes on at its edges. It may be a repeat in x, in y or in both.
+    /// Sets how the cloth goes on at its edges. The boundary may repeat in x, in y or in both.
     #[must_use]
     pub fn boundary(mut self, boundary: Boundary) -> Self {
         self.boundary = boundary;

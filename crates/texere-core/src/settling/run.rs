@@ -81,8 +81,8 @@ pub struct Rest {
 ///
 /// Yarns grow from a quarter of their thickness, and bends are soft at first. Passes of the
 /// weighted form are made until the yarns are at rest, the form stalls, or the plan allows no more.
-/// Passes of the block form follow, at most as many as there may be of the weighted form at full
-/// thickness.
+/// If the yarns are not at rest then, passes of the block form follow, at most as many as there may
+/// be of the weighted form at full thickness.
 ///
 /// **Errors**: [`BackendError`] of the device.
 pub fn settle(

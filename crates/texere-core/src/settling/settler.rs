@@ -77,8 +77,8 @@ pub trait Settler: Any + Debug + Send {
         self.pass(pass).map(ControlFlow::Continue)
     }
 
-    /// Keeps the places that the last pass has measured, before it moved them. They replace any
-    /// places kept before.
+    /// Keeps the places that the last pass has measured, not those that it moved points to. Places
+    /// kept before are replaced.
     fn keep(&mut self) -> Result<(), BackendError>;
 
     /// Restores the kept places, if there are any, and sets all steps to zero. The lengths that

@@ -125,7 +125,7 @@ pub enum YarnError {
         /// The section's error.
         source: SectionError,
     },
-    /// A twist that is not finite or too large.
+    /// A twist that is NaN, infinite or too large.
     #[error("yarn {yarn} has a twist of {twist} rad/mm, beyond ±{limit}")]
     Twist {
         /// Number of the yarn.
@@ -135,7 +135,7 @@ pub enum YarnError {
         /// The largest twist that is accepted, rad/mm.
         limit: f32,
     },
-    /// A linear density that is not finite, 0 or below.
+    /// A linear density that is NaN, infinite, 0 or negative.
     #[error("material {material} has {tex} tex, which is no positive number")]
     LinearDensity {
         /// Number of the material.

@@ -33,8 +33,8 @@ impl<'a> Lines<'a> {
 /// Vertices on their way to the output.
 ///
 /// They are written to scratch memory, aligned there as they will be in the output. Whole lines are
-/// sent from there: half of them at once, the other half before the vertices of the next rings are
-/// written. The floats after the last whole line are copied to the front of a second scratch
+/// sent from there: half of them immediately, the other half before the vertices of the next rings
+/// are written. The floats after the last whole line are copied to the front of a second scratch
 /// memory, which takes the next vertices. The two scratch memories take turns. Each holds the
 /// vertices of one vector of rings, so both stay in the nearest cache.
 #[derive(Debug)]

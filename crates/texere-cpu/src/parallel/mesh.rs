@@ -19,7 +19,7 @@ use crate::caps::caps;
 use crate::engine::Work;
 use crate::pages;
 
-/// Outputs of at least this many bytes are stored past the caches. It is the size of a large
+/// Outputs of at least this many bytes are stored past the caches. The limit is the size of a large
 /// processor's last cache.
 pub(super) const STREAM_BYTES: u64 = 32 << 20;
 
@@ -33,9 +33,9 @@ pub(super) fn mesh(set: InstructionSet, work: &Work, chunk: &Chunk, mut out: Mes
     let (maker, table) = (&maker, table.as_ref());
     mesh_runs(chunk, settings.sides, indexed, &mut out)
         .into_par_iter()
-        // A core that is done takes single runs from the others. In the groups that rayon makes by
-        // itself cores waited for the last group: a mesh took 4 % longer on sixteen cores, 6 % on
-        // two.
+        // A core that is done takes single runs from the others. With the groups that rayon makes
+        // by itself, cores waited for the last group: a mesh took 4 % longer on sixteen cores, 6 %
+        // on two.
         .with_max_len(1)
         .for_each(|run| set.run(MeshJob { maker, table, streams, run }));
     caps(work, chunk, out);

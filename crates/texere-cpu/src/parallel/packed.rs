@@ -124,7 +124,7 @@ const _: () = assert!(Quantum::BITS == 21);
 #[cfg_attr(optimized, inline(always))]
 fn wrapped<S: Simd>(simd: S, mm: S::Floats, quantum: Quantum) -> S::Integers {
     let quanta = mm * simd.splat(quantum.per_mm());
-    // `turns` says how often the lowest bits wrap round. If two whole numbers are equally near,
+    // `turns` says how often the lowest bits wrap round. If two numbers of turns are equally near,
     // either will do, because the lowest bits are the same.
     let turns = (quanta * simd.splat(1.0 / Quantum::WRAP) + simd.splat(0.5)).floor();
     let rest = quanta - turns * simd.splat(Quantum::WRAP);

@@ -23,7 +23,7 @@ const ONWARD: f32 = 1e-3;
 const EXTENT_MAX: f32 = 1e15;
 
 /// Whether the test shows that the frame adds nothing to any turn between the rings of `stretch`.
-/// Twist may.
+/// The test does not regard twist.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn stays_upright<S: Simd>(simd: S, source: &Source<'_>, stretch: Stretch) -> bool {
     let (plan, points) = (source.plan, source.yarn(stretch.yarn));

@@ -239,8 +239,8 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
 
 /// The seats of the last vector of a stretch, and a bit for each ring that the core has to make. If
 /// the vector ends an open yarn, the yarn's last ring is put at the end of the interval before its
-/// seat. If this ring is the vector's first, there is no such interval, and its bit is set. All
-/// other rings have `seats`.
+/// seat. If this ring is the vector's first, the vector does not have that interval, and the ring's
+/// bit is set instead. All other rings have `seats`.
 #[cold]
 #[inline(never)]
 fn seats_at_end(plan: &Plan, stretch: Stretch, done: u32, seats: &Seats) -> (Seats, u32) {

@@ -23,9 +23,9 @@ pub(super) const IN_TURN: [u32; LANES_MAX] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 
 /// A set of vector instructions, and proof that the processor has it.
 ///
 /// If not every processor has the set, only the implementation's own detection makes a value of the
-/// type. Vectors and masks are made with such a value or from other vectors, so they prove the
-/// same, and all methods are safe to call. The values have no size, so it takes no time to pass
-/// them on.
+/// type. Vectors and masks are made with such a value or from other vectors. They too are proof
+/// that the processor has the set, so all methods are safe to call. The values of the type have no
+/// size, so it takes no time to pass them on.
 ///
 /// Arithmetic is plain IEEE, lane by lane, without fused multiply-add, so that every implementation
 /// gives the same bits.

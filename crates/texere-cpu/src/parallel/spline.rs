@@ -180,8 +180,8 @@ fn low_halves<F: Floats<Integers: Integers<Floats = F>>>(halves: F) -> F {
 }
 
 /// The sizes at an interval's four points. They are half floats in the high 16 bits of `before` and
-/// `after`. Each size is converted only once: the sizes at the two points between are taken from
-/// other lanes of `before` and `after`.
+/// `after`. Only these two vectors are converted. The sizes at the two points between are taken
+/// from other lanes of `before` and `after`.
 #[cfg_attr(optimized, inline(always))]
 fn sizes<S: Simd>(simd: S, before: S::Floats, after: S::Floats) -> [S::Floats; 4] {
     let (before, after) = (from_half(simd, before), from_half(simd, after));

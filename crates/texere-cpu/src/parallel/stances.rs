@@ -58,8 +58,8 @@ impl<S: Simd, const FLATTENED: bool, const KIND: u8> Stances<S> for Round<'_, S,
     }
 }
 
-/// Rings of flattened yarns. Without `ROLLED` they have no roll; without `LEANING` neither half
-/// grows.
+/// Rings of flattened yarns. Without `ROLLED` they have no roll. Without `LEANING` neither the half
+/// width nor the half height grows.
 pub(super) struct Flat<'a, S: Simd, const FLATTENED: bool, const ROLLED: bool, const LEANING: bool> {
     rings: &'a Rings<S, FLATTENED>,
     /// The centre. No coordinate of it is -0.

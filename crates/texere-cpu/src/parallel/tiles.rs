@@ -1,7 +1,7 @@
-//! Vertices that become whole lines in registers. This works if rings start at quarters of lines:
-//! with an even number of sides, in memory aligned to 16 bytes.
+//! Vertices that become whole cache lines in registers. This works if rings start at quarters of
+//! lines: with an even number of sides, in memory aligned to 16 bytes.
 //!
-//! Four rings are then as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
+//! Four rings then fill as many lines as a ring has quarters. [`Surface`](super::vertices::Surface)
 //! gives a column for each quarter of four rings. The first four lanes of a column hold one quarter
 //! of one ring, the next four lanes the same quarter of the ring four further on, and so on. The
 //! first four lanes of four consecutive columns are a line, and so are the next four lanes. Columns

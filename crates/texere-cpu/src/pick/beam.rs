@@ -7,8 +7,8 @@ use texere_core::{Bounds, Ray};
 /// was subnormal.
 const NO_WAY: f64 = 1e-290;
 
-/// The factor by which the distance at which a ray leaves a box is enlarged. Both it and the
-/// distance at which the ray enters are off by at most three roundings.
+/// The factor by which the distance at which a ray leaves a box is enlarged. The distances at which
+/// a ray enters and leaves a box are each off by at most three roundings.
 const BOX_SLACK: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 /// A ray, prepared for tests against boxes and triangles.

@@ -13,7 +13,7 @@ use crate::engine::{Work, resize};
 use crate::rolls::Rolls;
 use crate::serial::scan_yarn;
 
-/// The fewest blocks of a yarn whose boxes one rayon item makes.
+/// The fewest blocks of a yarn whose boxes one rayon job makes.
 const BLOCKS_LEAST: usize = 64;
 
 /// Why a picker can't be made or changed.
@@ -51,7 +51,7 @@ pub enum PickError {
     OutOfMemory(#[from] OutOfMemory),
 }
 
-/// Says which triangle of the mesh of a cloth a ray hits first: its yarn, ring and side.
+/// Finds the triangle that a ray hits first in the mesh of a cloth: its yarn, ring and side.
 ///
 /// The picker needs no mesh. It holds the control points, 16 bytes each, and about 50 bytes for
 /// each block of 64 rings. The time for one ray grows with the logarithm of the number of blocks.

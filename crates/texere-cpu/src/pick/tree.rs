@@ -34,8 +34,8 @@ impl BoxTree {
     pub(super) fn first_half(boxes: usize) -> usize {
         let lowest_row = boxes.next_power_of_two();
         let in_lowest = 2 * boxes - lowest_row;
-        // The first child has half of the room in the lowest level, as far as that is filled, and
-        // half of what the level above holds.
+        // The first child has half of the room in the lowest level, of which `filled` places are
+        // taken. Each two places that are not taken are one leaf in the level above.
         let filled = in_lowest.min(lowest_row / 2);
         (lowest_row / 2 - filled) / 2 + filled
     }

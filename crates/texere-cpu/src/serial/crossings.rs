@@ -10,7 +10,7 @@ use texere_core::crossings::{CrossingState, CrossingsPass, CrossingsPlan, Crossi
 use crate::asked::{self, in_parts};
 use crate::crossings::{CrossingsMemory, step};
 
-/// The number of crossings between two questions to the caller.
+/// The number of crossings between two questions to the caller whether to go on.
 const PART: usize = 1024;
 
 /// The reference settler of crossings.

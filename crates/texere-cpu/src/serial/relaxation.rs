@@ -10,7 +10,7 @@ use texere_core::relaxation::{RelaxationPlan, RelaxationSeen, RelaxationState, R
 use crate::asked::in_slices;
 use crate::relaxation::RelaxationMemory;
 
-/// The number of intervals between two questions to the caller.
+/// The number of intervals between two questions to the caller whether to go on.
 const PART: usize = 256;
 
 /// The reference relaxer.

@@ -14,7 +14,8 @@ use texere_core::settling::{
 use crate::asked::{self, in_parts};
 use crate::cells::{Extent, Grid, owners};
 
-/// The number of intervals, chords or control points between two questions to the caller.
+/// The number of intervals, chords or control points between two questions to the caller whether to
+/// go on.
 const PART: usize = 256;
 
 /// The reference settler.

@@ -3,7 +3,8 @@
 use texere_core::crossings::{CrossingThread, Crossings};
 
 /// A cloth, its yarns in tex, and the values that it must reach: crimp in per cent (within four
-/// points), least area of sections as a share of the yarn's, and weight in g/m² (within a tenth).
+/// points), weight in g/m² (within a tenth), and a lower bound of the mean area of sections, as a
+/// share of the area of the round yarn's section.
 pub(crate) struct Cloth {
     pub(crate) name: &'static str,
     pub(crate) problem: Crossings,
@@ -40,9 +41,9 @@ fn per_inch(ends: f64, picks: f64) -> [f64; 2] {
     [25.4 / ends, 25.4 / picks]
 }
 
-/// Where the expected crimps come from. For poplin 14 % in the warp and 2 % in the weft are
-/// published. Mills find 10 to 14 % in the warp of denim, which comes out too high. For denim and
-/// all other cloths the expected crimp is what the cloth reached before.
+/// All cloths, each with the crimp that is expected of it. For poplin, 14 % in the warp and 2 % in
+/// the weft are published. For denim and all other cloths, the expected crimp is what the cloth
+/// reached before. In the warp of denim that is too much: mills find 10 to 14 %.
 pub(crate) fn cloths() -> Vec<Cloth> {
     let twill = |end: usize, pick: usize| !(end + 4 - pick % 4).is_multiple_of(4);
     let plain = |end: usize, pick: usize| (end + pick).is_multiple_of(2);

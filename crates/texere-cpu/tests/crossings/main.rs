@@ -93,8 +93,8 @@ fn cloths_of_the_mills_come_to_rest() {
     }
 }
 
-/// A cloth of uneven threads whose picks, or both ends and picks, lie on two or three levels. In
-/// figured cloth the levels change by place.
+/// A cloth of uneven threads. Its ends, its picks or both lie on two or three levels. In figured
+/// cloth the levels change by place.
 fn uneven_layers(
     [ends, picks]: [usize; 2],
     repeats: bool,
@@ -140,7 +140,8 @@ fn uneven_layers(
 #[test]
 fn gradients_are_the_energys() {
     let layers = [[1, 2], [2, 2], [3, 1], [3, 3]];
-    // Each also as a piece with open edges, and with levels that change by place.
+    // Each pair of levels is tried as a repeat, as a piece with open edges, and as a repeat whose
+    // levels change by place.
     let kinds = [[true, false], [false, false], [true, true]];
     let layered = layers.into_iter().flat_map(|levels| kinds.map(|kind| (levels, kind)));
     let problems = [true, false].map(|repeats| (uneven(5, 6, repeats), [1.0, 2.4], 0..5)).into_iter().chain(
@@ -204,7 +205,7 @@ fn balanced_plain_weave_is_alike_both_ways() {
         assert!(rest.at_rest, "{rest:?}");
         let [up, down] = [crossings[0], crossings[1]];
         // The cloth looks the same after it is turned over and then turned by a right angle. Half a
-        // repeat further on it is upside down. The weft is tauter by 0.4 %.
+        // repeat away, the cloth is upside down. The weft is tauter by 0.4 %.
         for (one, other, sign) in [
             (up.warp, up.weft, -1.0),
             (up.warp, down.weft, 1.0),

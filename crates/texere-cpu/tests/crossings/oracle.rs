@@ -202,7 +202,8 @@ impl Sum<'_> {
                 self.kept_apart((clearance - 1.0) * wide, 7, kinds)
             };
             let [after, opposite] = [0, steps].map(|across| self.plan.beside(site, set, 1, across));
-            // Threads of one level with others between them are neighbours at both crossings.
+            // Threads of one level with others between them touch half way only if they are
+            // neighbours at both crossings.
             let are_neighbours = |after: Site| steps == 1 || of_level_at(after) == steps;
             if let (Some(after), Some(opposite)) = (after.filter(|&after| are_neighbours(after)), opposite) {
                 let (next, opposite) = (self.lie(after, set), self.lie(opposite, set));

@@ -47,7 +47,7 @@ fn clearances(plan: &CrossingsPlan, all: &[CrossingState]) -> [f32; 4] {
     least
 }
 
-/// Contacts with room to spare are left out. The least clearance must be seen all the same,
+/// A pass leaves out contacts with room to spare. It must report the least clearance all the same,
 /// whichever contact has it.
 #[test]
 fn the_least_clearance_is_seen() {

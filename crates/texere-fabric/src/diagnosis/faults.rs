@@ -138,8 +138,9 @@ impl Woven {
     /// Diagnoses the cloth: measures its clearance at the default tension, compares the pitches of
     /// threads with the pitches that they need, and looks for pieces that nothing joins.
     ///
-    /// Contacts with a ratio below `touching` count as piercing. Splines through threads that just
-    /// touch have a ratio of 0.985. `progress` gets the share that is done, as in
+    /// Contacts with a ratio below `touching` count as piercing. Between points at which threads
+    /// just touch, splines come as near as a ratio of 0.987, which
+    /// [`CLEAR`](texere_contact::CLEAR) allows. `progress` gets the share that is done, as in
     /// [`clearance_with_progress`](texere_contact::clearance_with_progress).
     ///
     /// **Errors**: the errors of [`Woven::yarns`] and of [`Woven::clearance`].

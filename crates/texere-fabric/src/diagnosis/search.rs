@@ -10,8 +10,9 @@ use super::faults::{ClothFault, Diagnosis};
 use super::trial::{Rest, Trial, WIDER, around_worst, repeats};
 use crate::{Finish, Relief, WovenDesign};
 
-/// The powers of [`WIDER`] at which cloth comes to rest first, because each rest takes time. The
-/// powers between the first clean one and the one before are then halved.
+/// The powers of [`WIDER`] that are tried first for cloth at rest. They are few, because each rest
+/// takes time. The range between the last power that is not clean and the first clean one is then
+/// halved again and again.
 const WIDER_FIRST: [i32; 6] = [1, 2, 4, 8, 16, 32];
 
 /// The most times that a cloth comes to rest: as it is, with all powers of [`WIDER_FIRST`], and
@@ -69,10 +70,10 @@ impl WovenDesign {
 
     /// Looks for a wider spacing and for thinner yarns with which the cloth has no fault at rest,
     /// but for falling apart. `diagnosis` is that of the cloth at rest. Each change is tried with a
-    /// piece of the cloth, which comes to rest on `backend` as `finish` says: with two or three
-    /// repeats or, if these are large, with the threads around the worst places. If the piece does
-    /// not lack room, as the cloth does before it is changed, there are no cures. `tension` is the
-    /// tension of the yarns' splines.
+    /// piece of the cloth, which comes to rest on `backend` as `finish` says. The piece has two or
+    /// three repeats or, if these are large, the threads around the worst places. There are no
+    /// cures if the piece, before it is changed, does not have the same kinds of fault as the
+    /// cloth. `tension` is the tension of the yarns' splines.
     ///
     /// There are no cures of a [relieved](Self::is_relieved) design, because relief would change
     /// with the spacing. `progress` gets the share that is done, from 0 to 1. `Break` ends the
@@ -112,7 +113,7 @@ impl WovenDesign {
         let rest = Some(Rest { finish, tension, backend });
         let trial = Trial { cloth, faults, samples, touching, rest };
         let (mut tried, mut stopped) = (0, false);
-        // Once it is stopped, each further trial ends at once.
+        // Once `progress` has stopped the search, each further trial ends at once.
         let mut on = |number: u32, share: f64| {
             let done = (f64::from(number) + share) / f64::from(AT_REST_MOST);
             stopped |= stopped || progress(done).is_break();

@@ -24,7 +24,7 @@ const WIDER_TIMES: i32 = 22;
 /// larger repeats, the threads around its worst places are the samples.
 const REPEATS_MOST: usize = 4_096;
 
-/// Number of threads that are left beside the repeats.
+/// The fewest threads that a sample has besides two repeats.
 const BESIDE: usize = 8;
 
 /// Flatnesses (width over height) that are tried for all yarns.
@@ -90,8 +90,8 @@ fn samples(cloth: &Woven, places: &[Crossing]) -> Vec<Sample> {
     samples
 }
 
-/// Two or three repeats of the cloth and some threads more, if these are few. Both edges are those
-/// of the cloth.
+/// Two or three repeats of the cloth and some threads more, with both edges as the cloth has them.
+/// None if this sample has more than [`REPEATS_MOST`] crossings.
 pub(super) fn repeats(cloth: &Woven) -> Option<Vec<Sample>> {
     let repeat = cloth.repeat();
     let sample = cloth.cropped(repeat, repeat.map(|threads| 2 * threads + BESIDE)).map(|count| 0..count);
@@ -117,7 +117,7 @@ pub(super) struct Trial<'a> {
 /// A function that gets the share that is done, from 0 to 1, and may end the work.
 pub(super) type On<'a> = dyn FnMut(f64) -> ControlFlow<()> + Send + 'a;
 
-/// The share of a trial at rest after which its pieces are measured.
+/// The share of a trial's progress at which a piece has come to rest. The piece is then measured.
 const RESTED: f64 = 0.7;
 
 fn go_on(_: f64) -> ControlFlow<()> {
@@ -237,7 +237,8 @@ impl Trial<'_> {
 
     /// Whether the samples have the faults of the cloth before it is changed. If they have not,
     /// they can't show whether a change cures. Where threads lack room, a small piece may fold
-    /// where a large one is pierced, so that these faults count as one.
+    /// while a large one is pierced. Crowding, piercing, folds and triangles that face inwards
+    /// therefore count as one fault.
     pub(super) fn shows(&self, on: &mut On<'_>) -> bool {
         use ClothFault::{Crowded, Folds, InsideOut, Pierces};
         let as_one = |fault: ClothFault| match fault {
@@ -269,7 +270,8 @@ impl Trial<'_> {
         Some(Outcome { clearance, curvature, leaves: left.kinds() })
     }
 
-    /// Threads that lie too close together as they are woven. At rest their clearance shows it.
+    /// Threads that lie too close together, in cloth as it is woven. None for cloth at rest, whose
+    /// clearance shows where threads lack room.
     fn jams(&self, changed: &Woven) -> Option<Jams> {
         if self.rest.is_some() { None } else { changed.jams() }
     }

@@ -17,8 +17,8 @@ const LENGTH: f32 = 0.01;
 pub enum Verdict {
     /// The surfaces, as they are drawn, have no contact whose
     /// [ratio](texere_contact::Contact::ratio) is below [`CLEAR`], and none of them folds. Yarns of
-    /// a knit have the lengths that they should have, unless lengths are free, and keep their
-    /// linking.
+    /// a knit keep their linking. If they settled by contact, they have the lengths that they
+    /// should have, unless lengths are free. If they rest by their energy, the forces balance.
     AtRest,
     /// Yarns have no room. Those of a knit keep their linking, but even the passes of the block
     /// form, the second form of settling by contact, did not bring them to rest. Threads of woven
@@ -51,9 +51,8 @@ impl Finished {
         }
     }
 
-    /// Whether the cloth is at rest: no surface pierces another ([`CLEAR`]) or folds, and yarns of
-    /// a knit have their lengths and keep their linking. The program's `check` then finds no
-    /// piercing and no fold.
+    /// Whether the cloth is at rest: whether its verdict is [`Verdict::AtRest`]. The program's
+    /// `check` then finds no piercing and no fold.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.verdict() == Verdict::AtRest

@@ -7,25 +7,27 @@ use crate::Fibre;
 
 /// The radius of the soft shell, in radii of the yarn. Fibres that stand off a spun yarn are felt
 /// before the yarns themselves touch. Shells of 1.3 to 2.3 radii were tried on plain jersey of
-/// tightness 11 to 15: below 1.7 loops that are slack get too wide (`jersey_has_its_proportions`).
+/// tightness 11 to 15: with less than 1.7 radii, slack loops get too wide
+/// (`jersey_has_its_proportions`).
 /// With half the value, `plans_refuse_what_no_yarn_has` is red; with twice,
 /// `jersey_has_its_proportions`.
 const SHELL: f64 = 2.0;
 
-/// The stiffness of the shell: this, times the bending stiffness over the fifth power of the
-/// shell's radius. With a third of it, slack jersey gets too wide, and with ten times as much,
-/// jersey gets too low. With half the value, and with twice, `jersey_has_its_proportions` is red.
+/// The stiffness of the shell, as a multiple of the bending stiffness over the fifth power of the
+/// shell's radius. With a third of this multiple, slack jersey gets too wide, and with ten times as
+/// much, jersey gets too low. With half the value, and with twice, `jersey_has_its_proportions` is
+/// red.
 const COMPRESSION: f64 = 0.01;
 
-/// The stiffness against stretch: this, times the bending stiffness over the square of the yarn's
-/// radius. Yarns at rest are then shorter or longer by 0.1 % at most. Ten times as much needs twice
-/// as many steps. With half the value, and with twice, no test is red.
+/// The stiffness against stretch, as a multiple of the bending stiffness over the square of the
+/// yarn's radius. Yarns at rest are then shorter or longer by 0.1 % at most. Ten times as much
+/// needs twice as many steps. With half the value, and with twice, no test is red.
 const EXTENSION: f64 = 100.0;
 
-/// The stiffness of springs that press cloth flat: this, times the bending stiffness over the
-/// fourth power of the diameter. It is as strong as a light weight on the cloth. With a tenth of
-/// it, lace and cables crumple; with three times as much, rib does not draw in. With twice the
-/// value, `rib_draws_in` is red; with half, no test is.
+/// The stiffness of springs that press cloth flat, as a multiple of the bending stiffness over the
+/// fourth power of the diameter. The springs press like a light weight on the cloth. With a tenth
+/// of the multiple, lace and cables crumple; with three times as much, rib does not draw in. With
+/// twice the value, `rib_draws_in` is red; with half, no test is.
 const PRESS: f64 = 0.015;
 
 /// The diameter of a cotton yarn of 1 tex, mm.

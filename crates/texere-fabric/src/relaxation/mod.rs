@@ -20,7 +20,8 @@ use crate::settling::{Look, tell, unchanged};
 use crate::weft::Gauge;
 use crate::{FabricError, FinishError, Piece, Repeat};
 
-/// The steps in which yarns grow: only the progress depends on them.
+/// The most steps in which yarns grow to their full thickness. Only the progress depends on this
+/// number.
 const GROWING: u32 = 300;
 
 /// The share of the progress at which the yarns are at rest. Their clearance is then measured.
@@ -29,8 +30,8 @@ const RELAXED: f64 = 0.95;
 /// A knit that has come to rest by its energy, or as near to rest as it came.
 #[derive(Debug, Clone)]
 pub struct RelaxedKnit {
-    /// The yarns of the whole cloth. If any yarns have passed through one another, they are the
-    /// cloth's own yarns, as placed.
+    /// The yarns of the whole cloth. If any yarns have passed through one another, these are the
+    /// cloth's yarns as they were placed before they moved.
     pub yarns: Yarns,
     /// The distances of wales and courses at rest, and in a weft knit the mean length of a loop.
     pub gauge: Gauge,
@@ -60,8 +61,9 @@ impl RelaxedKnit {
     }
 }
 
-/// Relaxes one repeat of a knit on `backend`, and places its copies with `placed`. `gauge` is that
-/// of the cloth, and `length` the rule for its lengths; free lengths are held.
+/// Relaxes one repeat of a knit on `backend`, and places its copies with `placed`. `gauge` is the
+/// gauge of the cloth. `length` is the rule for the lengths of its yarns. If it leaves them free,
+/// the yarns keep their lengths.
 pub(crate) fn relax_repeat(
     repeat: &Repeat,
     gauge: &Gauge,

@@ -18,12 +18,12 @@ use crate::{FabricError, FinishError, Piece};
 pub(super) const STEPS: u32 = 3000;
 
 /// The longest way of a control point, in radii of the thinnest yarn, after which linking is
-/// compared. Over longer ways more pairs of yarns have to be compared, and windows of yarn that
-/// have bent much look as if they had passed through one another. With half the value, and with
-/// twice, no test is red.
+/// compared. Over longer ways more pairs of yarns have to be compared, and short stretches of yarn
+/// that have bent much look as if they had passed through one another. With half the value, and
+/// with twice, no test is red.
 const COMPARED: f64 = 0.5;
 
-/// Asks how to go on after a number of steps.
+/// Asks whether to go on after a number of steps.
 pub(super) type Ask<'a> = &'a mut (dyn FnMut(u32) -> ControlFlow<()> + Send);
 
 /// A piece that relaxes on a device.
@@ -34,7 +34,8 @@ pub(super) struct Relaxing<'a> {
 }
 
 impl<'a> Relaxing<'a> {
-    /// `length` is the rule for the lengths of the yarns; free lengths are held.
+    /// `length` is the rule for the lengths of the yarns. If it leaves them free, the yarns keep
+    /// their lengths.
     pub(super) fn new(piece: &'a Piece, length: Length, backend: &dyn Backend) -> Result<Self, FinishError> {
         let elastic = elastic::of_yarns(&piece.yarns);
         let factor = if let Length::Given(factor) = length { f64::from(factor) } else { 1.0 };
@@ -47,7 +48,8 @@ impl<'a> Relaxing<'a> {
         let plan = Arc::new(RelaxationPlan::new(&problem)?);
         let relaxer = backend.relaxer(Arc::clone(&plan))?;
         let thinnest = elastic.iter().map(|elastic| elastic.core).fold(f64::INFINITY, f64::min);
-        // The plan has spread the points along the yarns.
+        // Linking is first compared with the points as they are placed. The start of the plan is
+        // another state: the plan spreads the points of yarns that go round.
         let points = piece.yarns.points().iter().map(|point| point.position().as_dvec3()).collect();
         let placed = RelaxationState { points, repeat: plan.start().repeat };
         let compared = Compared::new(piece, placed, COMPARED * thinnest);
@@ -70,7 +72,8 @@ impl<'a> Relaxing<'a> {
         self.watched(ask, |plan, relaxer, watch| relax_grown(plan, relaxer, state, held, watch))
     }
 
-    /// What `search` finds while linking is compared.
+    /// Runs `search`, and compares the linking of its states on the way. None if some yarns have
+    /// passed through one another.
     fn watched(
         &mut self,
         ask: Ask<'_>,
@@ -108,8 +111,8 @@ impl<'a> Relaxing<'a> {
     }
 }
 
-/// A piece, and the state that was compared last. It is compared as if its repeat had the lengths
-/// of the next state: stretching a repeat passes no yarn through another.
+/// A piece, and the state that was compared last. The last state is compared as if its repeat had
+/// the lengths of the next state: stretching a repeat passes no yarn through another.
 pub(super) struct Compared<'a> {
     piece: &'a Piece,
     last: RelaxationState,

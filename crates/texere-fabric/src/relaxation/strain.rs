@@ -1,4 +1,5 @@
-//! Tests of strain: a knit is held longer than it is at rest, and pulls.
+//! Tests of strain: a knit is held at a width or a length that it does not have at rest, and the
+//! force with which it pulls is measured.
 
 use std::ops::ControlFlow;
 
@@ -41,8 +42,8 @@ pub struct StrainState {
     /// The strain along the courses and along the wales, as a share of the cloth's width and height
     /// at rest.
     pub strain: [f64; 2],
-    /// The force along the courses and along the wales for each mm of the cloth across it as it is
-    /// strained, N/mm. It is nearly 0 along a way that is free.
+    /// The force along the courses and along the wales, N/mm: for each mm of the strained cloth,
+    /// measured across the force. The force is nearly 0 along a way that is free.
     pub force: [f64; 2],
     /// Thickness, mm.
     pub thickness_mm: f64,
@@ -106,8 +107,8 @@ impl StrainTest {
     }
 
     /// The strain along the way of the test at which the force per width first reaches `force`,
-    /// N/mm, between the states on a straight line. Along both ways, that along the courses counts.
-    /// None if no state reaches it.
+    /// N/mm. Between two states the curve is taken as a straight line. In a test along both ways,
+    /// strain and force along the courses count. None if the curve does not reach `force`.
     #[must_use]
     pub fn strain_at(&self, force: f64) -> Option<f64> {
         let pairs = self.curve().zip(self.curve().skip(1));
@@ -118,9 +119,9 @@ impl StrainTest {
     }
 
     /// The tangent modulus at a strain, N/mm: by how much the force per width grows with the
-    /// strain. It is the slope of the parabola through the three nearest states. Along both ways,
-    /// force and strain along the courses count. None if there are fewer states, or the strain lies
-    /// outside of them.
+    /// strain. It is the slope of the parabola through the three nearest states. In a test along
+    /// both ways, force and strain along the courses count. None if there are fewer than three
+    /// states, or if the strain lies outside of them.
     #[must_use]
     pub fn modulus_at(&self, strain: f64) -> Option<f64> {
         let curve: Vec<[f64; 2]> = self.curve().collect();
@@ -128,8 +129,8 @@ impl StrainTest {
     }
 
     /// Poisson's ratio at a strain: by how much the cloth gets narrower across the strain, as a
-    /// share of its size at rest. None for a test along both ways, and as for
-    /// [`modulus_at`](Self::modulus_at).
+    /// share of its size at rest. None for a test along both ways, if there are fewer than three
+    /// states, or if the strain lies outside of them.
     #[must_use]
     pub fn poisson_at(&self, strain: f64) -> Option<f64> {
         if self.along == Along::Both {
@@ -209,7 +210,7 @@ pub(crate) fn strain_repeat(
     Ok(StrainTest { along, gauge, repeat_mm: size.to_array(), states })
 }
 
-/// What a relaxed state is, for a repeat that has this size at rest.
+/// The measures of a relaxed state of a repeat whose size at rest is `size`, mm.
 fn state_of(relaxing: &Relaxing<'_>, relaxed: &Relaxed, size: DVec2) -> Result<StrainState, FinishError> {
     let RelaxationState { repeat, .. } = &relaxed.state;
     let moved = relaxing.compared.piece_of(&relaxed.state)?;

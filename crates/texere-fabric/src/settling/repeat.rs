@@ -15,7 +15,8 @@ use crate::FabricError;
 /// `run_ins_are_asked_for_and_measured` is red; with twice, `jacquards_displace_single_guides`.
 const SETTLED: u32 = 4;
 
-/// The control points that are copied between two looks whether to go on, some 5 ms of a slow core.
+/// Number of control points that are copied between two calls of the function that asks whether to
+/// go on. Copying them takes a slow core some 5 ms.
 const LOOK_POINTS: usize = 1 << 18;
 
 /// A cloth made of copies of one repeat. The repeat settles once, and is then copied.
@@ -29,7 +30,7 @@ const LOOK_POINTS: usize = 1 << 18;
 /// let yarns = yarns.build()?;
 /// let boundary = Boundary::new(yarns.layout(), [2.0, 0.5], vec![Ends::Repeats([1, 0])])?;
 /// let repeat = Repeat { piece: Piece::new(yarns, boundary), copies: [3, 2] };
-/// // Three repeats of it are one yarn, and there are two such yarns, half a millimetre apart.
+/// // Three copies along x make one yarn. Two such yarns lie half a millimetre apart.
 /// let cloth = repeat.placed(&repeat.piece.yarns)?;
 /// assert_eq!(cloth.layout().offsets(), [0, 12, 24]);
 /// assert_eq!((cloth.points()[11].x, cloth.points()[23].y), (5.5, 0.5));

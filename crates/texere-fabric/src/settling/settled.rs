@@ -27,7 +27,7 @@ pub struct Finish {
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
     /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
     /// a length for some loop. A warp knit gets the lengths of its run-ins, and keeps its lengths
-    /// if a bar with yarns has none. All other yarns keep their lengths.
+    /// if a bar with yarns has no run-in. All other yarns keep their lengths.
     pub length: Option<Length>,
     /// Distance of the two plates that press the cloth while yarns settle, mm. A press does not
     /// move yarns that are at rest before settling begins.
@@ -94,14 +94,13 @@ impl Press {
 /// Settled yarns, and how well they settled.
 #[derive(Debug, Clone)]
 pub struct Settled {
-    /// The settled yarns, with the layout, materials and sources of the piece. If any yarns have
-    /// passed through one another, they are the piece's own yarns, unmoved.
+    /// The settled yarns: those of the piece, or of all copies of a knit's repeat. If some yarns
+    /// have passed through one another, or could not all be compared, no yarn has been moved.
     pub yarns: Yarns,
     /// The rule by which lengths were settled.
     pub length: Length,
     /// The number of passes, and the measures at the start and at the end. If the yarns were left
-    /// unmoved because they had passed through one another, the end equals the start, and they are
-    /// not at rest.
+    /// unmoved ([`Settled::yarns`]), the end equals the start, and [`Rest::at_rest`] is false.
     pub rest: Rest,
     /// Whether yarns have passed through one another, by comparison of the start with the end.
     pub linking: Linking,
@@ -117,7 +116,8 @@ pub struct Settled {
 }
 
 impl Settled {
-    /// The result with the thickness of the whole cloth as the reached thickness of the press, mm.
+    /// The result with another [`Press::reached_mm`]: the thickness of the whole cloth, which
+    /// `reached_mm` measures, mm. Without a press the result stays as it is.
     pub(crate) fn pressed(self, reached_mm: impl FnOnce(&Yarns) -> f64) -> Self {
         let press = self.press.map(|press| Press { reached_mm: reached_mm(&self.yarns), ..press });
         Self { press, ..self }
@@ -131,7 +131,8 @@ impl Settled {
 
     /// The thread at a place of [`Settled::clearance`] or [`Settled::linking`].
     ///
-    /// **Panics** for a place on a yarn past the last one. No place of `clearance` or `linking` is.
+    /// **Panics** for a place on a yarn past the last one. Places of `clearance` and `linking`
+    /// never lie on such a yarn.
     #[must_use]
     pub fn origin(&self, place: &YarnPlace) -> Origin {
         self.yarns.layout().yarns()[place.yarn].origin

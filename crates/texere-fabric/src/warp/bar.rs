@@ -112,7 +112,8 @@ impl Threading {
 ///
 /// ```
 /// use texere_fabric::warp::{Bar, Chain, Displacements};
-/// // On 1-0/1-2: as it is, its second lap displaced (1-0/2-3, thick), its first one (2-1/1-2, a mesh).
+/// // Three colours for the chain 1-0/1-2. Colour 0 leaves the chain as it is. Colour 1 displaces
+/// // the second lap (1-0/2-3, thick), and colour 2 the first lap (2-1/1-2, a mesh).
 /// let palette = vec![vec![[0, 0], [0, 0]], vec![[0, 0], [1, 1]], vec![[1, 1], [0, 0]]];
 /// let jacquard = Displacements::new([3, 1], palette, |guide, _| guide as u8).unwrap();
 /// let bar = Bar { jacquard: Some(jacquard), ..Bar::new(Chain::parse("1-0/1-2//", 1)?) };

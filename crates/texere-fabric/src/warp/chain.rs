@@ -88,7 +88,7 @@ impl fmt::Display for Lap {
 /// use texere_fabric::warp::Chain;
 /// let tricot = Chain::parse("1-0/1-2//", 1)?;
 /// assert_eq!(tricot.to_string(), "1-0/1-2//");
-/// // From space 0 to space 1, against the overlap before it: a closed lap.
+/// // The underlap goes from space 0 to space 1, against the overlap before it: a closed lap.
 /// assert_eq!((tricot.underlap(0), tricot.is_open(0)), (1, false));
 /// # Ok::<(), texere_fabric::warp::ChainError>(())
 /// ```

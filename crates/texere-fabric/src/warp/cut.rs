@@ -6,8 +6,8 @@ use super::WarpKnitted;
 use crate::FabricError;
 use crate::weft::Cells;
 
-/// Control points by which yarns go on below the cloth, down into the last loop of the course
-/// below.
+/// Control points by which yarns go on below the cloth. They are the last points of the course
+/// below, in its underlap, its loop or its inlay.
 const BELOW: u32 = 3;
 
 /// Control points by which yarns go on above the cloth: up to the middle of the leg of the next

@@ -201,8 +201,8 @@ impl WarpKnitted {
         laps(&self.bars, self.repeat[0], self.repeat[1]).map(loops).sum::<u64>() * across * along
     }
 
-    /// The yarns of the whole cloth, as placed before settling: bar by bar, and in each bar from
-    /// the left.
+    /// The yarns of the whole cloth, as placed before settling. They are ordered by the copies of
+    /// [`WarpKnitted::repeat`] from the left, in each copy by bar, and in each bar from the left.
     ///
     /// Needle 0 is half a wale from x = 0. The feet of the first course are at y = 0. Origins are
     /// [`Origin::Guide`], with bars and guides counted from 1. The source of a control point is the

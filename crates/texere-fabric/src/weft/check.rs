@@ -26,9 +26,9 @@ const PASSED_POINTS: u64 = 3;
 const TURN_POINTS: u64 = 3;
 
 /// The most control points of a repeat, which is laid and settles as one. Reading and laying take
-/// 73 to 79 bytes for each point, a gigabyte in all. A picture of 1,024 × 1,024 stitches has as
-/// many points, even with a second yarn that only floats. If both yarns knit, 910 × 910 stitches
-/// have as many.
+/// 73 to 79 bytes for each point, a gigabyte in all. A picture of 1,024 × 1,024 stitches stays
+/// within the limit, even with a second yarn that knits a single stitch. With two yarns in every
+/// row, 910 × 910 stitches stay within the limit.
 const REPEAT_POINTS_MAX: u64 = 12_600_000;
 
 /// The most needles and courses that yarns may pass in a knit, apart from [`PASSED_BESIDE_A_LOOP`]
@@ -46,8 +46,8 @@ pub(crate) fn gauge(gauge: &Gauge) -> Result<(), WeftError> {
     }
 }
 
-/// Checks that the numbers of yarns are valid. `origin` gives the origin of a yarn by its number,
-/// counted from 0, for errors.
+/// Checks each yarn's radius and twist, and that its material and section exist. `origin` gives the
+/// origin of a yarn by its number, counted from 0, for errors.
 pub(crate) fn yarns(
     yarns: &[KnitYarn],
     origin: impl Fn(u32) -> Origin,

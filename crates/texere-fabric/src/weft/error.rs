@@ -39,7 +39,7 @@ pub enum WeftError {
         /// of a yarn between two loops ends; none for a warp knit.
         operation: Option<u32>,
     },
-    /// A needle outside the allowed range, by its own number or because the beds are racked.
+    /// A needle whose number is outside the allowed range.
     #[error("needle {needle}; needles {} to {limit} are taken", -i64::from(*.limit))]
     KnitNeedle {
         /// The needle.

@@ -90,8 +90,8 @@ pub(super) struct Form<'a> {
     lift: f64,
     lower: Half,
     upper: Half,
-    /// Distance by which the feet lie further back than behind a single loop, because more loops
-    /// lie in front of them, mm.
+    /// Distance by which the feet lie further back than they would behind a single loop, mm. More
+    /// loops then lie in front of them.
     behind: f64,
     /// Distance by which the legs come forward, mm. In a stitch of several yarns, the legs of the
     /// hindmost yarn then still lie in front of the heads that they are drawn through.

@@ -6,8 +6,9 @@ use super::knitted::{Knitted, extent};
 use crate::StitchPlace;
 
 impl Knitted {
-    /// The stitch at a place on one of the cloth's `yarns`. None in floats, and for yarns without
-    /// sources.
+    /// The stitch at a place on one of the cloth's `yarns`. None if no loop has the source of the
+    /// place, as in most floats, and for yarns without sources. A float of a Jacquard chart has the
+    /// source of another yarn's loop in the same cell, and the result is the stitch of that loop.
     ///
     /// The source of the place gives the stitch within a repeat. The copy of the repeat is the one
     /// whose stitch lies nearest, by the height of the feet and by the place's x. The search also

@@ -92,8 +92,8 @@ pub enum Instruction {
     Split(Direction, Needle, Needle),
     /// Lets all loops of a needle fall.
     Drop(Needle),
-    /// Moves all loops of a needle to a needle of the other bed, in front of the loops that the
-    /// second needle holds.
+    /// Moves all loops of a needle to a needle of the other bed. The moved loops lie nearer to the
+    /// tip of the second needle than the loops that this needle already holds.
     Transfer(Needle, Needle),
     /// Moves carriers past a needle: with `Left` to the needle's left side, with `Right` to its
     /// right side.
@@ -140,8 +140,8 @@ impl fmt::Display for Instruction {
 pub struct Operation {
     /// The instruction.
     pub instruction: Instruction,
-    /// The carriers that take part. A set of several plates their yarns: the first one lies in
-    /// front, on the side to which the loop is drawn.
+    /// The carriers that take part. If there are several, their yarns are plated: the yarn of the
+    /// first carrier lies in front, on the side to which the loop is drawn.
     pub carriers: CarrierSet,
     /// The line of the file, or the cell of the chart, that the operation comes from. Every control
     /// point of the operation's loops and floats keeps this number.

@@ -80,7 +80,8 @@ impl Knitted {
         settled.pressed(|yarns| self.measured(yarns).thickness_mm)
     }
 
-    /// `finish` with a rule for the lengths of [`Knitted::repeat`], if it has none.
+    /// `finish`, with a rule for the lengths of [`Knitted::repeat`] if `finish` has no rule for
+    /// lengths.
     #[must_use]
     pub fn finish_of(&self, repeat: &Repeat, finish: &Finish) -> Finish {
         let length = finish.length.unwrap_or_else(|| self.length(&repeat.piece, repeat.copies));

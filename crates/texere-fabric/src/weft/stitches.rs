@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use super::{Bed, Direction};
 
-/// Number of half wales in a wale. Places are kept in half wales, because the needles of a bed that
-/// is racked by half a pitch lie half way between those of the other bed.
+/// Number of half wales in a wale. Where places of needles are compared, they are counted in half
+/// wales, because the needles of a bed that is racked by half a pitch lie half way between those of
+/// the other bed. [`Stitch::at`] is in wales.
 pub(super) const HALVES: i64 = 2;
 
 /// A reference to a loop: its number in [`Stitches::loops`], and its repeat relative to the loop
@@ -75,8 +76,9 @@ pub struct Stitch {
     /// cloth then lie face to face.
     pub opposite: bool,
     /// The course of the loop, counted from 0. It is one more than the highest course that a stitch
-    /// of the same pass is drawn through. A pass that is drawn through nothing lies in the course
-    /// of its carrier's pass before.
+    /// of the same pass is drawn through. A pass is a row of stitches that the same carriers make
+    /// in one direction. A pass that is drawn through nothing lies in the course of its carrier's
+    /// previous pass.
     pub course: u32,
     /// Number of the loop's yarn in a plated stitch, counted from 0. Yarn 0 lies in front, on the
     /// side to which the loop is drawn.

@@ -22,13 +22,13 @@ const SHOULDER_MOST: f32 = 0.32;
 ///
 /// Deeper shoulders bend threads less and bring them nearer to one another. Places and depths of
 /// shoulders were tried on plain weave, 3/1 and 2/2 twill, matt, satins, damask and random weaves.
-/// Some of them keep threads at 0.99 of touching, whether the threads are alike or not, round or
-/// flat. The values in this file bend threads least tightly among these. The tightest bend of round
-/// threads of one size has a radius of 1.7 yarn radii at a pitch of 3 diameters, 1.4 at 2.5, 1.05
-/// at 2, 0.95 at 1.9 and 0.83 at 1.8. Below 1.95 diameters the threads fold. Trials with separate
-/// values for round threads of one size, and for shoulders beside floats, gave a radius of 1.03
-/// yarn radii at 1.8 diameters. At the least pitch at which threads are not jammed, the best trial
-/// gave 0.88.
+/// Some places and depths keep threads at 0.99 of touching, whether the threads are alike or not,
+/// round or flat. Among these, the values in this file bend threads least tightly. The tightest
+/// bend of round threads of one size has a radius of 1.7 yarn radii at a pitch of 3 diameters, 1.4
+/// at 2.5, 1.05 at 2, 0.95 at 1.9 and 0.83 at 1.8. Below 1.95 diameters the threads fold. Trials
+/// with separate values for round threads of one size, and for shoulders beside floats, gave a
+/// radius of 1.03 yarn radii at 1.8 diameters. At the least pitch at which threads are not jammed,
+/// the best trial gave 0.88.
 const FALL: f32 = 0.155;
 
 /// The largest fall of a shoulder, as a share of the fall of a circle round the crossed thread.
@@ -67,9 +67,9 @@ pub(super) struct Bend<'a> {
     pub(super) shape: Shape,
     /// The threads that they cross.
     pub(super) crossed: &'a Set,
-    /// Half the height of these threads, with the room that their twist needs, mm.
+    /// Half the height of the threads that bend, with the room that their twist needs, mm.
     pub(super) half_height: f32,
-    /// The share of these threads in the distance between the two centrelines at a crossing.
+    /// At a crossing, the bending threads' share of the distance between the two centrelines.
     pub(super) share: f32,
 }
 

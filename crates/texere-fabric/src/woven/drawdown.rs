@@ -52,7 +52,7 @@ impl fmt::Debug for Drawdown {
 }
 
 impl Drawdown {
-    /// A drawdown with every warp down.
+    /// A drawdown in which the warp is down at every crossing.
     ///
     /// **Errors**: [`WovenError::Size`] for no ends, no picks, or more than [`THREADS_MAX`] of
     /// either, [`WovenError::Crossings`] for more than 2³² crossings, and

@@ -28,10 +28,10 @@ const DOUBLE: f64 = 0.5;
 const CHANGED: f64 = 0.05;
 
 /// The largest distance, in threads along a thread, at which crossings near a change of layers
-/// count as single cloth. A thread passes from layer to layer between others that do so, too, and
-/// the cloth is drawn as single cloth is. 0 to 6 were tried. Of double plain weave whose layers
-/// have threads every 2.6 diameters, the clearance is 0.82 with 0, 0.90 with 1, 0.98 with 3 and
-/// 0.96 with 4 (`layers_change_places`).
+/// count as single cloth. There, threads pass from layer to layer between one another, and the
+/// cloth is drawn like single cloth. 0 to 6 were tried. Of double plain weave whose layers have
+/// threads every 2.6 diameters, the clearance is 0.82 with 0, 0.90 with 1, 0.98 with 3 and 0.96
+/// with 4 (`layers_change_places`).
 const OUTLINE: usize = 3;
 
 impl Drawdown {
@@ -98,8 +98,9 @@ impl Drawdown {
     }
 
     /// How a thread and the next one lie at each thread that crosses them. Where layers change
-    /// places, the threads before the place and those after it disagree. The threads on one side
-    /// count, as many as give the clearest verdict.
+    /// places, the crossing threads before the place and those after it disagree. Therefore only
+    /// crossing threads on one side count. The side and their number, one of [`NEAR`], are those
+    /// with the clearest verdict.
     fn lying_along(&self, set: Set, thread: usize) -> Vec<Lying> {
         let (count, others) = (self.threads(set), self.threads(set.other()));
         // Running sums over the crossing threads, twice round the cloth: how many before a place

@@ -123,7 +123,8 @@ impl Woven {
     }
 }
 
-/// A warning of threads that pierce the thread before them side by side.
+/// A warning of threads that lie so close beside the thread before them that the two pierce one
+/// another.
 fn crowded(gaps: &[Gap], origin: fn(u32) -> Origin) -> Option<FabricWarning> {
     let lacking = gaps.iter().map(|gap| (origin(gap.thread), f64::from(gap.widths), gap.pitch));
     let (count, first, (worst, needed_mm, spacing_mm)) = worst(lacking)?;

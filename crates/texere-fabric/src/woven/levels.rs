@@ -21,13 +21,15 @@ pub(super) const SIDE_BY_SIDE: usize = 4;
 /// half. With twice the value, `layers_are_found_in_any_order` is red; with half, no test is.
 pub(super) const STACKED: f64 = 0.4;
 
-/// The most levels of a set. If neighbours contradict one another, the search for levels would
-/// never end without this limit. In a staircase each thread lies above the next one.
+/// The most levels of a set. Without this limit, the search for levels would never end if
+/// neighbours contradict one another: if each thread lies above the next one, and the last thread
+/// above the first.
 const LEVELS_MAX: u8 = 8;
 
-/// The least share of its crossings at which a binder lies on the wrong side for a thread that
-/// keeps its level. A binder between two levels, half of whose crossings are on the face, has a
-/// quarter. More than one in five are no stitches. With twice the value,
+/// A thread is a binder if, at more than this share of its crossings, it lies on the side that is
+/// wrong for a thread that keeps its level. A binder that passes two levels, and lies on the face
+/// at half of its crossings, is on the wrong side at a quarter of them. Wrong sides at up to one
+/// crossing in five are stitches. With twice the value,
 /// `stuffers_lie_on_levels_and_binders_pass_them` is red; with half, no test is.
 const BINDS: f64 = 0.2;
 
@@ -74,9 +76,9 @@ impl Drawdown {
     ///
     /// Where the layers of a figured double cloth change places, its threads change levels. If both
     /// sets have one level in the cloth as a whole, or both have two, neighbours are therefore
-    /// compared once more at each crossing, by up to sixteen crossing threads on one side of it.
-    /// Two layers are found so, not three. Within three threads of a change of layers, all threads
-    /// lie side by side.
+    /// compared once more at each crossing, by up to sixteen crossing threads on one side of it. In
+    /// this way two layers can be found, but not three. Within three threads of a change of layers,
+    /// all threads lie side by side.
     ///
     /// ```
     /// use texere_core::crossings::Level;
@@ -161,8 +163,8 @@ impl Drawdown {
     /// the other set.
     fn levels_between_binders(&self, set: Set, levels: &[Level]) -> Vec<Level> {
         let count = self.threads(set);
-        // A thread that keeps its place lies above all threads of the other set that are lower, and
-        // below all that are higher. Among those of one level it may weave.
+        // A thread that keeps its level lies above all threads of the other set on lower levels,
+        // and below all on higher levels. Among the threads of its own level it may weave.
         let is_binder = |thread: usize| {
             let wrong_at = |home: u8| {
                 let is_wrong = |(other, level): &(usize, &Level)| {

@@ -14,8 +14,9 @@ use crate::{FabricError, WovenError, yarn_check};
 /// A cloth on the loom. Its lifts are changed one by one or in blocks, and only the yarns that a
 /// change affects have to be placed anew.
 ///
-/// The yarns equal those of [`Woven::yarns`] to the bit, and have the same numbers. A lift changes
-/// the yarn of the end and the yarn of the pick that cross there, and no other yarn.
+/// The yarns equal those of [`Woven::yarns`] to the bit, and have the same numbers, as long as
+/// [`Loom::set_yarn`] has not changed a thread. A lift changes the yarn of the end and the yarn of
+/// the pick that cross there, and no other yarn.
 ///
 /// ```
 /// use texere_core::{Material, Section};

@@ -319,7 +319,7 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Reads `word`, in any case, if it stands here as a word of its own.
+    /// Reads `word`, in small or capital letters, if it stands here as a word of its own.
     fn word(&mut self, word: &str) -> bool {
         self.rest = self.rest.trim_start();
         let Some((head, rest)) = self.rest.split_at_checked(word.len()) else { return false };

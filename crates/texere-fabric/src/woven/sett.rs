@@ -97,11 +97,12 @@ impl Woven {
             |end: usize, pick: usize| self.drawdown().up(end % self.warp().len(), pick % self.weft().len());
         [0, 1].map(|set| {
             let highest = levels[set].iter().map(|level| level.of).fold(1, u8::max);
-            // For each level, and last for the binders, the crossings at which its threads lie in
-            // it, those of these that count, and those at which the crossed thread changes sides to
-            // the next thread.
+            // Three counts of crossings for each level, and last for the binders: at how many a
+            // thread lies in the level, how many of these crossings count, and at how many of those
+            // that count the crossed thread changes sides before the next thread of the level.
             let mut counts = vec![[0_u64; 3]; usize::from(highest) + 1];
-            // Where the layers of a figured cloth change places, it counts as single.
+            // Crossings with one level are left out of a figured cloth: the cloth is single there,
+            // or its layers change places.
             let counts_here = |(_, level): &(usize, &Level)| level.of != 1 || highest == 1;
             for (number, level) in levels[set].iter().enumerate().filter(counts_here) {
                 let other = levels[1 - set][number];

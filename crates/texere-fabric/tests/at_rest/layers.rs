@@ -140,8 +140,8 @@ fn layered(weave: fn(usize, usize) -> bool, ends: &[usize], picks: &[usize]) -> 
     Drawdown::from_fn(THREADS, THREADS, up).unwrap()
 }
 
-/// In open cloth layers lie in one another. Threads of two layers that would be in one place are
-/// pushed apart. Where they were not, clearances fell to 0.1 and below.
+/// In open cloth the threads of one layer lie in the gaps of another. Threads of two layers that
+/// would be in one place are pushed apart. Without this push, clearances fell to 0.1 and below.
 #[test]
 fn layers_rest_at_any_sett() {
     for (name, drawdown) in [
@@ -169,8 +169,8 @@ fn layers_rest_at_any_sett() {
     }
 }
 
-/// Two layers of one weave that change places from square to square, each `size` threads wide. A
-/// figure's outline with steps and corners is harder than a straight one.
+/// Two layers of one weave that change places from square to square. Each square is `size` threads
+/// wide. For layers that change places, the corners of squares are harder than a straight outline.
 fn figured(weave: fn(usize, usize) -> bool, size: usize) -> Drawdown {
     let up = |end: usize, pick: usize| {
         let turned = !(end / size + pick / size).is_multiple_of(2);
@@ -202,7 +202,8 @@ fn layers_change_places() {
             );
             assert!(clearance >= 0.98, "{name} at {pitch}: {clearance}");
             assert!(folds >= 1.0, "{name} at {pitch} folds: {folds}");
-            // Side by side, as threads of single cloth, they would lose more of their area.
+            // If threads of both layers lay side by side, as in single cloth, they would lose more
+            // of their area.
             for set in Set::BOTH {
                 assert!(rest.area[set] >= 0.9, "{name} at {pitch}: area {:?}", rest.area);
             }

@@ -76,12 +76,14 @@ fn satin(end: usize, pick: usize) -> bool {
 /// Cloths with counts and threads per inch as on sale, and cloths of one yarn at pitches of 1.25 to
 /// 3 diameters.
 ///
-/// Sources of crimp. Two cloths come out of the published range, and have none here: denim's warp
-/// with 24 % (mills: 10 to 14 %), and sateen's warp with 7.8 % (Taylor: 3.2 %). Poplin: "the warp
-/// crimp could be 14 % and the weft crimp only 2 %"
+/// The crimp of two cloths lies outside the published range, so that no crimp is given for them:
+/// denim's warp crimps by 24 % (mills: 10 to 14 %), and sateen's warp by 7.8 % (Taylor: 3.2 %).
+///
+/// Sources of crimp. Poplin: "the warp crimp could be 14 % and the weft crimp only 2 %"
 /// (<https://www.textilecalculations.com/calculate-crimp-percentage-of-woven-fabric/>). Sheeting
-/// and sateen: J. T. Taylor, "Cotton weaving and designing", 6th edition: intersections to the inch
-/// × 4, in medium cloths × 3, over the weft's count.
+/// and sateen: J. T. Taylor, "Cotton weaving and designing", 6th edition. By Taylor, crimp in per
+/// cent is four times the intersections to the inch, in medium cloths three times, over the weft's
+/// count.
 fn cloths() -> Vec<Cloth> {
     let cotton = |warp: f64, weft: f64, ends: f64, picks: f64| {
         ([warp, weft].map(tex_from_cotton_count), [25.4 / ends, 25.4 / picks])
@@ -190,7 +192,7 @@ fn cloths_of_the_mills_come_to_rest() {
         let least = rest.area_least.into_array().map(|area| area as f32);
         assert!(least.iter().all(|&area| area >= COTTON_LEAST_AREA - 1e-3), "{name}: {least:?}");
         assert!(tightest(&rest.yarns) >= 1.0, "{name} folds: {}", tightest(&rest.yarns));
-        // The certificate looks for no contacts above 0.99.
+        // `rest.clearance` counts no contacts above 0.99.
         assert!(
             (rest.clearance[1] - clearance.min(0.99)).abs() < 0.008,
             "{name}: {} and {clearance}",
@@ -284,8 +286,8 @@ fn uneven_cloth_comes_to_rest_whole() {
     }
 }
 
-/// A woven structure comes to rest by its crossings, and its measures follow. Settings that only
-/// knits have are refused.
+/// A woven structure comes to rest by its crossings, and is measured by its yarns at rest. Settings
+/// that only knits have are refused.
 #[test]
 fn a_woven_structure_comes_to_rest() {
     let cotton = Material { tex: Some(tex_from_cotton_count(20.0) as f32), ..Material::default() };

@@ -13,8 +13,8 @@ use texere_fabric::{
 use crate::surfaces::Surfaces;
 use crate::{at_rest, diameter, plain, twill};
 
-/// Cotton cloth of threads with `section`, of tex and threads a centimetre of warp and weft, and
-/// the least of its sections that fibres fill.
+/// Cotton cloth of 12 ends and 12 picks with this twist and `section`. `ends` and `picks` are each
+/// the tex and the number of threads a centimetre. Sections keep the least area of cotton yarn.
 fn cotton(
     up: impl FnMut(usize, usize) -> bool,
     [ends, picks]: [(f64, f64); 2],
@@ -31,8 +31,8 @@ fn cotton(
 }
 
 /// Sheeting, duck and denim, from open to so dense that single yarns are as dense as fibres allow.
-/// Yarns of two and three round plies would crimp by up to three times as much as single yarns,
-/// pierce one another and fold.
+/// If plies stayed round, yarns of two and three plies would crimp by up to three times as much as
+/// single yarns, pierce one another and fold.
 #[test]
 fn plied_threads_rest_near_single_ones() {
     let plain: fn(usize, usize) -> bool = plain;
@@ -61,8 +61,9 @@ fn plied_threads_rest_near_single_ones() {
     }
 }
 
-/// A thread counts as dense once it has lost area. Thread that is solid fibre from the start, and
-/// solid threads that cross plied ones, leave plies as they are.
+/// In clear cloth, plies are pressed beyond the first valley, 0.85, only if a plied thread has lost
+/// area and is as dense as its fibres allow. In open cloth, plied threads that are solid from the
+/// start lose no area. Solid threads without plies do not count.
 #[test]
 fn open_cloth_of_solid_threads_keeps_its_plies() {
     let open = cotton(plain, [(30.0, 12.0); 2], 650.0, Section::plied(2));

@@ -46,7 +46,8 @@ fn turns_do_not_fold() {
         ("rib", rib as Weave),
     ];
     for (name, weave) in weaves {
-        // The last one has picks so close that a round yarn has no room for a half circle.
+        // With the last pitches, picks are so close that a round yarn has no room for a half
+        // circle.
         for pitch in [[2.0, 5.0 / 3.0], [3.0, 3.0], [2.0, 1.0]] {
             let woven = cloth(weave, pitch);
             let rest = finished(&woven, &Finish::default());

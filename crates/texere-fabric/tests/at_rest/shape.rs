@@ -43,8 +43,8 @@ fn rested(cloth: &Woven) -> WovenRest {
     rest
 }
 
-/// A stiffer yarn resists flattening as it resists bending. Threads bend less by flattening, so
-/// where only bends grow with stiffness, stiff yarn becomes ribbon.
+/// A stiffer yarn resists flattening as it resists bending. A flat thread has to bend less. If
+/// stiffness resisted bending alone, stiff yarn would therefore become a ribbon.
 #[test]
 fn stiff_yarn_stays_round() {
     let mut before: Option<([f64; 2], f64)> = None;
@@ -62,8 +62,9 @@ fn stiff_yarn_stays_round() {
     }
 }
 
-/// A taffeta of filament without twist, 190 threads to the square inch, covers all: of such cloth
-/// light comes through nowhere. Sheeting of hard-twisted yarn stays nearly round.
+/// A taffeta of filament without twist, with 190 threads to the square inch, covers more than 97 %
+/// of its area, so that hardly any light comes through. Hard-twisted yarn stays nearly round in
+/// sheeting.
 #[test]
 fn filament_covers_and_hard_twist_stays_round() {
     let taffeta = |firmness: f32| {
@@ -105,7 +106,8 @@ fn flatness_is_the_shape_that_a_yarn_wants() {
     assert!(upright < 0.9 * round && flat > 1.5 * round, "{upright}, {round}, {flat}");
 }
 
-/// An end of six times the tex keeps its fibres, and the ends beside it lie further away.
+/// An end of six times the tex is squeezed no further than to solid fibre, and the ends beside it
+/// lie further away.
 #[test]
 fn neighbours_give_way_to_a_thick_end() {
     let thread = |tex: f64| Thread::new(10.0 / 38.0, (diameter_mm(tex, COTTON_DENSITY) / 2.0) as f32);
@@ -145,7 +147,7 @@ fn threads_that_work_as_one_close_up() {
         let cloth = woven(up, ends, picks);
         let rest = rested(&cloth);
         assert!(Surfaces::new(&rest.yarns).clearance() >= 0.98, "{name}");
-        // The places of all threads, and how far pairs of ends are from one another.
+        // The place of a thread, and how far the next thread is from it.
         let place = |number: usize| {
             let points = rest.yarns.yarn_points(number).unwrap();
             let along = points.iter().map(|at| if number < 12 { at.x } else { at.y });

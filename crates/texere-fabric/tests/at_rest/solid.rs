@@ -27,8 +27,8 @@ pub(crate) fn least_drawn(woven: &Woven, yarns: &Yarns) -> f32 {
     (0..yarns.layout().yarns().len()).map(least).fold(f32::INFINITY, f32::min)
 }
 
-/// Random drawdowns at setts up to twice the usual ones. The halves of control points are half
-/// floats, whose rounding is 1/2048.
+/// Random drawdowns at setts up to twice the usual ones. Half widths and half heights of control
+/// points are half floats, whose rounding is 1/2048.
 #[test]
 fn no_section_is_denser_than_its_fibres() {
     let (mut seed, mut jammed) = (3, 0);

@@ -75,7 +75,7 @@ fn stretching_tells_its_progress_and_ends_within_a_pass() {
     });
     assert!(matches!(refused, Err(FinishError::Fabric(FabricError::Cancelled))), "{refused:?}");
     assert_eq!(shares.len(), 5);
-    // The first question comes within the first pass.
+    // The first report comes within the first pass.
     assert!(shares[0] == 0.0 && shares[1] > 0.0 && shares[4] < 0.01 && shares.is_sorted(), "{shares:?}");
     let mut last = 0.0;
     let whole = sheeting.stretched(&Finish::default(), pull, 0.0, &device, |share| {

@@ -6,8 +6,8 @@
 use texere_core::{Material, Section};
 use texere_fabric::{Drawdown, Shape, Thread, Weave, Woven};
 
-/// Random bits, by Knuth's multiplicative congruential generator. Its high bits are random enough
-/// for a weave.
+/// Random bits, by Knuth's linear congruential generator. Its high bits are random enough for a
+/// weave.
 pub(crate) fn random_bits(seed: u64) -> impl FnMut() -> bool {
     let mut state = seed;
     move || {

@@ -216,8 +216,8 @@ fn a_ring_is_clear_of_itself_and_its_bend_is_its_own() {
     assert!((1.0..1.06).contains(&thick.curvature_min));
 }
 
-/// A yarn doubles back in a fold. On the way down to the fold its end comes near it at a ratio of
-/// 0.6758, and the ratio rises by no more than 0.002 from there before it falls.
+/// A yarn doubles back in a fold. Its end comes near an earlier interval at a ratio of 0.6758. On
+/// the way from there down to the fold, the ratio rises by no more than 0.002 before it falls.
 #[test]
 fn a_shallow_contact_on_the_way_to_a_fold_is_found() {
     let points = vec![
@@ -547,8 +547,8 @@ fn a_yarn_without_length_is_met_where_it_lies() {
     assert!((found.min - nearest).abs() < CLEARANCE_ACCURACY, "{} but {nearest}", found.min);
 }
 
-/// A yarn comes nearest to itself within a millionth of an interval before a knot, where it turns
-/// back sharply.
+/// A yarn comes nearest to itself within a millionth of an interval before a control point, where
+/// the yarn turns back sharply.
 #[test]
 fn a_contact_just_before_a_knot_is_found() {
     let points = [

@@ -14,8 +14,9 @@ use texere_fabric::{Shape, Thread};
 use crate::cloths::{cloth, weave, weaves};
 use crate::oracle::round_clearance;
 
-/// The most pairs per control point in cloth whose yarns are clear of one another. A small cloth
-/// that lies in one cell of the grid takes the most.
+/// The most pairs of control intervals that are compared for each control point, in cloth whose
+/// yarns are clear of one another. A small cloth takes the most, because all of it lies in one cell
+/// of the search's grid.
 const SANE: u64 = 128;
 
 /// Plain cloth of `size` ends and picks, 0.75 mm apart.

@@ -111,7 +111,7 @@ fn the_smallest_repeat_of_a_weave_is_compared() {
     let boundary = Boundary::new(before.layout(), [5.0 * D; 2], ends).unwrap();
     let found = linking(&before, &after, &boundary).unwrap();
     assert_eq!(pairs(&found), [[0, 3]], "{found:?}");
-    // The end flips in every round of its windows.
+    // A window goes several times round so small a repeat, and the end is flipped in each round.
     assert!(found.largest > LINKING_CHANGE, "{found:?}");
     let same = linking(&before, &before, &boundary).unwrap();
     assert_eq!((same.passages, same.largest), (0, 0.0));

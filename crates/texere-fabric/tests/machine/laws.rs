@@ -160,10 +160,10 @@ fn lawful(program: &Program, stitches: &Stitches) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Repeats on each side of the middle one with which the naive machine's edges do not reach the
-/// loops that are compared. In each round a loop travels as far as all transfers of one direction
-/// together. What the edge does to the cloth has all rounds to travel, and a loop of the middle
-/// round has half of them to travel towards it.
+/// The number of repeats on each side of the middle one. With so many, the edges of the naive
+/// machine's cloth do not reach the loops that are compared. In each round a loop travels at most
+/// as far as all transfers of one direction together. An edge's effect travels inwards in all
+/// rounds. A loop of the middle round travels towards the edge in half of the rounds.
 fn sides(program: &Program) -> i32 {
     let travel = |way: i32| {
         let of = |operation: &Operation| match operation.instruction {
@@ -248,8 +248,8 @@ proptest! {
     }
 }
 
-/// The loops of this repeat go two needles to the left in each round, and all of them fall. Only
-/// where the cloth ends is there a needle that nothing clears, and what is left there travels in.
+/// The loops of this repeat go two needles to the left in each round, and all of them fall. Only at
+/// the edge of the cloth does nothing clear a needle. The loop that is left there travels inwards.
 #[test]
 fn loops_that_travel_come_from_within_the_cloth() {
     let list = [

@@ -27,8 +27,8 @@ use texere_fabric::{
 
 const RADIUS: f64 = 0.1;
 
-/// The thickness of yarns that are measured: less than that to which they have grown, so that
-/// points that are moved press no core into another.
+/// The share of their thickness with which yarns are measured. Before, yarns have grown to their
+/// whole thickness. Points that are moved a little therefore press no core into another.
 const GROWTH: f64 = 0.9;
 
 /// One repeat of a knit with yarns of 0.2 mm.
@@ -155,7 +155,7 @@ fn energy_and_forces_are_those_of_the_oracle() {
     }
 }
 
-/// A yarn whose second interval curls so far that its ends touch: both lie in one interval.
+/// A yarn whose second interval curls so far that the two ends of the interval touch one another.
 #[test]
 fn an_interval_may_touch_itself() {
     let mut yarns = Yarns::builder();
@@ -164,7 +164,7 @@ fn an_interval_may_touch_itself() {
     let yarns = yarns.build().unwrap();
     let boundary = Boundary::new(yarns.layout(), [24.0, 60.0], vec![Ends::Repeats([1, 0])]).unwrap();
     let elastic = [Elastic { bending: 0.01, core: 0.2, shell: 0.6, compression: 0.1, extension: 1.0 }];
-    // A point that is held keeps all points where they are.
+    // Without a pinned point, the plan would spread the yarn's points evenly.
     let problem = Relaxation::new(&yarns, &elastic).boundary(boundary).pinned(vec![0]);
     let plan = Arc::new(RelaxationPlan::new(&problem).unwrap());
     let seen = measured(&SerialBackend::new(), &plan, plan.start(), 1.0);
@@ -207,7 +207,7 @@ fn relaxed_on(device: &dyn Backend, plan: &Arc<RelaxationPlan>) -> Relaxed {
     relaxed.continue_value().unwrap()
 }
 
-/// `piece` with a control point more in the middle of each interval of its spline.
+/// `piece` with a further control point in the middle of each interval of its spline.
 fn refined(piece: &Piece) -> Piece {
     let Piece { yarns, boundary, .. } = piece;
     let (mut table, mut finer) = (Yarns::builder(), Vec::new());
@@ -235,11 +235,12 @@ fn refined(piece: &Piece) -> Piece {
     Piece::new(yarns, boundary)
 }
 
-/// The yarn of Singal et al., and the length of the loops of their stockinette.
+/// The yarn of Singal et al. with a core of this radius, mm.
 fn acrylic(core: f64) -> Elastic {
     Elastic { bending: 0.045, core, shell: 0.74, compression: 0.0006, extension: 100.0 }
 }
 
+/// The length of a loop in the stockinette of Singal et al., mm.
 const LOOP: f64 = 11.28;
 
 /// A loop of stockinette, a wale of which is `wale` mm wide.
@@ -252,8 +253,9 @@ fn stockinette(wale: f64) -> Piece {
     refined(&Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap().piece().unwrap())
 }
 
-/// The published simulation: Singal, Dimitriyev et al., Nature Communications 15, 2622 (2024), data
-/// of stockinette with a core of 0.300 mm: the height of a course for four widths of a wale.
+/// The height of a course is compared for four widths of a wale. The published simulation is that
+/// of stockinette with a core of 0.300 mm in Singal, Dimitriyev et al., Nature Communications 15,
+/// 2622 (2024).
 #[test]
 fn stockinette_follows_a_published_simulation_under_strain() {
     let elastic = [acrylic(0.3)];
@@ -272,12 +274,12 @@ fn stockinette_follows_a_published_simulation_under_strain() {
         assert!(off.abs() < 0.021, "a wale of {wale} mm: {} for {course}", relaxed.state.repeat.y);
         pulls.push(relaxed.pull.x / relaxed.state.repeat.y);
     }
-    // The wider it is held, the more it pulls; narrower than at rest, it pushes.
+    // The wider the cloth is held, the more it pulls. Held narrower than at rest, it pushes.
     assert!(pulls.is_sorted() && pulls[0] < 0.0 && pulls[1] > 0.0, "{pulls:?}");
 }
 
-/// Munden measured wales and courses of relaxed jersey times the length of a loop as 3.8 to 4.2 and
-/// 5.0 to 5.5. No such constant is in the code.
+/// In relaxed jersey Munden measured wales and courses per mm. Times the length of a loop in mm,
+/// they are 3.8 to 4.2 and 5.0 to 5.5. No such constant is in the code.
 #[test]
 fn jersey_has_its_proportions() {
     let piece = stockinette(3.0);
@@ -291,8 +293,8 @@ fn jersey_has_its_proportions() {
     assert!(relaxed.at_rest, "{relaxed:?}");
     assert!((3.8..4.2).contains(&wales) && (5.0..5.6).contains(&courses), "{wales} {courses}");
 
-    // Yarn of which nothing is known, at a tightness of 11, 13 and 15: 24.4, 20.6 and 17.9
-    // diameters.
+    // Yarn of which only the radius is known counts as cotton. Loops of 24.4, 20.6 and 17.9
+    // diameters have a tightness of 11, 13 and 15.
     for diameters in [24.4, 20.6, 17.9] {
         let rest = at_rest(&Structure::Weft(slack("k", diameters)));
         let [wales, courses] =
@@ -314,7 +316,8 @@ fn thickness(rest: &RelaxedKnit) -> f64 {
     texere_fabric::thickness_mm(&rest.yarns) / (2.0 * RADIUS)
 }
 
-/// What a loop's length makes of it does not depend on the gauge that it is placed with.
+/// The gauge of jersey at rest follows from the length of its loops, and does not depend on the
+/// gauge with which the loops are placed.
 #[test]
 fn jersey_forgets_the_gauge_of_its_needles() {
     let length = 2.0 * RADIUS * 24.4;
@@ -345,7 +348,8 @@ fn rib_draws_in() {
     assert!((4.0..5.7).contains(&thickness(&rib)), "{}", thickness(&rib));
 }
 
-/// The structure gets the gauge of its yarns, so that measures of the cloth are right.
+/// The structure gets the gauge that its yarns have at rest, so that measures of the cloth are
+/// right.
 #[test]
 fn the_gauge_follows() {
     let structure = Structure::Weft(slack("k", 18.0));
@@ -364,10 +368,10 @@ fn the_gauge_follows() {
     let [width, height] = structure.clone().at_rest_as(&finished).size_mm();
     assert_eq!([width, height], [rest.gauge.wale_mm, rest.gauge.course_mm]);
     assert!(structure.size_mm() != [width, height]);
-    // From there, it comes to rest as it was.
+    // The structure with this gauge comes to rest with the same gauge again.
     let again = at_rest(&structure.clone().at_rest_as(&finished)).gauge;
     assert!((again.wale_mm / rest.gauge.wale_mm - 1.0).abs() < 0.01, "{again:?} {:?}", rest.gauge);
-    // The yarn itself says so: a loop further on, it is a wale to the side.
+    // The control points agree with the gauge: a loop further on, the yarn lies a wale to the side.
     let points = rest.yarns.points();
     let wale = f64::from(points[12].x - points[0].x).abs();
     assert!((wale / rest.gauge.wale_mm - 1.0).abs() < 1e-4, "{wale} {:?}", rest.gauge);

@@ -1,5 +1,6 @@
-//! The energy of yarns by the formulas of `texere_core::relaxation`, in code of its own: every pair
-//! of samples is compared, in every image that may be near, and nothing is listed.
+//! The energy of yarns by the formulas of `texere_core::relaxation`, in code of its own. Every pair
+//! of samples is compared, in every copy of the repeat that may be near, and no lists of near
+//! samples are kept.
 
 use std::f64::consts::PI;
 
@@ -18,7 +19,7 @@ pub(crate) enum Broken {
     Attraction,
 }
 
-/// The furthest images along either axis.
+/// How many copies of the repeat, along either axis and to each side, samples are compared with.
 const IMAGES: i32 = 5;
 
 struct Sample {

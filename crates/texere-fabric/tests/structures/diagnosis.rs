@@ -1,4 +1,4 @@
-//! Faults are named by thread and crossing, and cures leave the faults that they say.
+//! Faults are named by thread and crossing, and a cure leaves exactly the faults that it lists.
 
 use std::ops::ControlFlow;
 

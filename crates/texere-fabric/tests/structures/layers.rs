@@ -38,7 +38,7 @@ fn layers_are_what_can_be_lifted_off() {
             (seed >> 33) as usize
         };
         let [ends, picks] = [2 + chance() % 4, 2 + chance() % 4];
-        // Some drawdowns are nearly in layers, so that many fall apart.
+        // Two of three drawdowns are made of up to three layers, so that many fall apart.
         let heights: Vec<usize> = (0..ends + picks).map(|_| chance() % 3).collect();
         let cloth = Drawdown::from_fn(ends, picks, |end, pick| {
             let [warp, weft] = [heights[end], heights[ends + pick]];

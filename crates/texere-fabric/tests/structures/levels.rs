@@ -50,7 +50,7 @@ fn of_threads(drawdown: &Drawdown) -> [Vec<Level>; 2] {
 fn threads_of_most_weaves_lie_side_by_side() {
     for notation in SINGLE {
         let weave = Weave::parse(notation).unwrap();
-        // First a whole number of repeats, then a number that is not whole.
+        // First a whole number of repeats of most weaves, then a number that is not whole.
         for [ends, picks] in [[64, 64], [61, 67]] {
             assert_eq!(counts(&weave.drawdown(ends, picks).unwrap()), [1; 2], "{notation}");
         }
@@ -127,7 +127,8 @@ fn stitched_and_backed_cloths_have_levels() {
     assert_eq!(counts(&Drawdown::from_fn(32, 32, |end, pick| backed(pick, end)).unwrap()), [2, 1]);
 }
 
-/// In a staircase each thread lies above the next one. There are more steps than levels.
+/// In a staircase each thread lies above the next one. A staircase of more threads than a set may
+/// have levels counts as one level.
 #[test]
 fn a_staircase_has_one_level() {
     for count in [12, 300] {

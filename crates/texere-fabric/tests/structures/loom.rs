@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use texere_core::{Material, Section, Yarns};
 use texere_fabric::{Drawdown, Loom, Shape, Thread, Woven};
 
-/// A cloth of unevenly spaced threads, of two heights and two materials.
+/// A cloth of unevenly spaced threads, of two thicknesses and two materials.
 fn cloth(raised: &[bool], [ends, picks]: [usize; 2], selvedge: bool, shape: Shape) -> Woven {
     let thread = |number: usize| Thread {
         spacing_mm: [0.9, 0.9, 2.5, 1.1][number % 4],

@@ -73,7 +73,7 @@ fn satins() {
     ] {
         assert_eq!(Weave::parse(short).unwrap(), Weave::parse(long).unwrap());
     }
-    // A satin has one binding point on each end, and never two side by side.
+    // A satin has one binding point on each end, and no two of them touch at a corner.
     for ends in [5, 7, 8, 9, 10, 11, 12, 13] {
         let sateen = Weave::parse(&format!("sateen {ends}")).unwrap();
         for end in 0..ends {

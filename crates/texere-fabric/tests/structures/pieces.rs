@@ -36,8 +36,9 @@ fn pillars_are_joined_by_what_crosses_them_alone() {
     assert_eq!(found(vec![pillar()], 2, 2, [3, 5]), (6, 0, vec![]));
     assert_eq!(found(vec![bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![pillar(), bar("1-0/1-2//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
-    // The inlay passes behind the loops of pillars and in front of the yarn between them. It is
-    // held if it lies behind the pillars' bar, and not held if it lies in front of it.
+    // If the inlay's bar lies behind the pillars' bar, the inlay passes behind the loops of pillars
+    // and in front of the yarn between the loops, and is held. If its bar lies in front, the inlay
+    // is not held.
     assert_eq!(found(vec![pillar(), bar("0-0/3-3//", FULL)], 4, 6, [1, 1]), (1, 0, vec![]));
     assert_eq!(found(vec![bar("0-0/3-3//", FULL), pillar()], 4, 6, [1, 1]), (8, 4, vec![]));
     // An inlay that stays in its space is held by underlaps that pass it, and joins no other yarns.
@@ -50,7 +51,7 @@ fn tricot_two_in_two_out_falls_apart_beside_empty_needles() {
     let threading = &[true, true, false, false];
     let design = || bar("1-0/1-2//", threading);
     assert_eq!(found(vec![design()], 8, 4, [1, 1]), (2, 0, vec![3, 7]));
-    // Needles 1 and 5 have loops of both guides beside them.
+    // Needles 1 and 5 each have loops of two guides.
     let opposite = bar("1-2/1-0//", threading);
     let (count, loose, empty) = found(vec![design(), opposite], 8, 4, [1, 1]);
     assert_eq!((count, loose, empty), (2, 0, vec![3, 7]));

@@ -30,7 +30,7 @@ const FLAT: Pair = Pair {
 
 impl Pair {
     /// Spacings of ends and picks: `ratio` times the least pitch, which follows from the other
-    /// set's share of the crimp. No set lies closer than side by side.
+    /// set's share of the crimp. Threads of one set lie no closer than side by side.
     fn threads(&self, share: f32, ratio: f64) -> [Thread; 2] {
         let [wide, high] = self.half;
         let radius = self.radius.map(f64::from);

@@ -17,7 +17,8 @@ fn materials() -> Vec<Material> {
     [20.0, 30.0].map(|tex| Material { tex: Some(tex), ..Material::default() }).to_vec()
 }
 
-/// Cloth of a weave. Its ends and picks take the given spacings and materials in turn.
+/// Cloth of a weave. Its ends take the given spacings and materials in turn. Its picks lie 1 mm
+/// apart and have material 0.
 fn woven(notation: &str, size: [usize; 2], spacing: &[f64], materials_of: &[u32]) -> Woven {
     let thread = |number: usize| Thread {
         material: materials_of[number % materials_of.len()],

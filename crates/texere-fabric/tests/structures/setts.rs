@@ -62,7 +62,7 @@ fn peirces_square_cloth_jams_where_the_textbook_has_it() {
     for jammed in square(plain, thread, thread) {
         assert!((10.0 / jammed.unwrap() / 0.4 - 0.866).abs() < 1e-4, "{jammed:?}");
     }
-    // Twills do not jam at this angle.
+    // A jammed sett is given for plain weave alone.
     assert_eq!(square(|end, pick| (end + 8 - pick) % 4 < 2, thread, thread), [None; 2]);
 }
 
@@ -113,8 +113,7 @@ fn threads_of_other_sets_take_their_own_room() {
     let doubled = vec![thin; 6];
     let cloth =
         Woven::new(ribs, doubled, vec![thick; 6], vec![Material::default()], vec![Section::Circle]).unwrap();
-    // With six ends the third pair equals the first, so that nothing changes sides at the edge of
-    // the repeat.
+    // The repeat has four ends. Picks change sides at two of its four steps from end to end.
     let BySet { warp: ends, weft: picks } = cloth.setts();
     assert!((ends.interlacings - 0.5).abs() < 1e-9 && (picks.interlacings - 1.0).abs() < 1e-9, "{ends:?}");
 }

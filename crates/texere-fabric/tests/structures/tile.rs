@@ -8,8 +8,8 @@ use texere_fabric::warp::{Bar, Chain, WarpKnitted};
 use texere_fabric::weft::{Beds, Chart, Gauge, KnitYarn, Knitted, Machine};
 use texere_fabric::{Finish, Relief, Structure, Thread, Tile, Weave, Woven, WovenDesign};
 
-/// The largest distance, mm, that a point at one edge of a tile may have from a point at the other.
-/// Coordinates of some ten millimetres are rounded to .000001 mm.
+/// A point at one edge of a tile, moved on by one tile, has at most this distance from a point at
+/// the other edge, mm. Coordinates of some ten millimetres are rounded to .000001 mm.
 const EXACT: f32 = 2e-5;
 
 fn woven(weave: &str, size: [usize; 2], colors: usize) -> Structure {
@@ -48,8 +48,9 @@ fn at_rest(structure: &Structure) -> Yarns {
     structure.settle(&finish, 0.0, &ParallelBackend::open().unwrap(), goes_on).unwrap().yarns().clone()
 }
 
-/// For each control point within `reach` mm of the tile's left or lower edge, the distance to the
-/// nearest point one tile further on that has the same thickness; the largest of all.
+/// The largest misfit at the tile's left and lower edges, mm. Each control point within `reach` mm
+/// of these edges is moved on by one tile and compared with all points. The misfit of two points is
+/// their distance, or the difference of their half widths if it is larger. The best fit counts.
 fn seam(yarns: &Yarns, [low, size]: [[f64; 2]; 2], reach: f64) -> f32 {
     let inside =
         |at: f64, axis: usize, reach: f64| at > low[axis] - reach && at < low[axis] + size[axis] + reach;

@@ -287,7 +287,7 @@ fn what_is_no_cloth_is_refused() {
         limit: 2,
     });
     assert_eq!(refused(vec![bar(), wide], four, one), lap);
-    // Displaced to the other side, the lap goes round one needle.
+    // Displaced by 0-1, the lap 2-0 becomes 2-1 and goes round one needle.
     let narrow = Displacements::new([1, 1], vec![vec![[0, 1], [0, 0]]], |_, _| 0);
     let narrow = Bar { jacquard: narrow, ..Bar::new(chain("2-0/1-2//")) };
     knit(vec![narrow], four, one).unwrap().yarns().unwrap();
@@ -303,7 +303,7 @@ fn what_is_no_cloth_is_refused() {
     let parts = (vec![KnitYarn::new(0.05)], vec![Material::default()], vec![Section::Circle]);
     let made = WarpKnitted::new(vec![bar()], gauge, 4, 2, parts.0, parts.1, parts.2, one);
     assert!(matches!(made.unwrap_err(), FabricError::Weft(WeftError::Gauge { .. })));
-    // Yarn 2, which has no thickness, is held by guide 2 of the back bar first.
+    // Yarn 2 has no thickness. The first guide that holds it is guide 2 of the back bar.
     let threading = Threading::of(vec![Some(0), Some(1)]);
     let parts =
         (vec![KnitYarn::new(0.05), KnitYarn::new(0.0)], vec![Material::default()], vec![Section::Circle]);
@@ -366,8 +366,8 @@ fn pillar() -> Chain {
     Chain::named("pillar").unwrap()
 }
 
-/// A guide with a number far beyond the cloth laps at that number. Spaces are clamped to the limits
-/// of a lap.
+/// A guide with a number far beyond the cloth laps at that number. Spaces beyond the range of an
+/// `i32` are clamped to it.
 #[test]
 fn a_guide_of_any_number_laps_to_the_high_numbers() {
     let bar = |offset| Bar { offset, ..Bar::new(Chain::parse("1-0/1-2//", 1).unwrap()) };

@@ -28,8 +28,8 @@ impl Outline {
     /// The hull of the section: the outline that a taut thread around it takes.
     pub(crate) fn hull_of(section: &Section) -> Self {
         let mut corners = corners(section);
-        // The furthest corner is on the hull. From there on, a corner is dropped if the next one
-        // lies outside of it.
+        // The furthest corner is on the hull. From there on, a corner is dropped if it does not lie
+        // outside the line from the corner before it to the next one.
         let (furthest, _) =
             corners.iter().enumerate().max_by(|a, b| a.1.length().total_cmp(&b.1.length())).unwrap();
         corners.rotate_left(furthest);

@@ -23,12 +23,13 @@ const RATIOS: [f64; 2] = [0.4, 1.15];
 /// Number of angles at which a ring is sampled.
 const ANGLES: usize = 256;
 
-/// If the gauge of a sample exceeds the ratio by less than this, yarns may touch between the sample
+/// The gauge of a sample is the factor by which the other yarn's section has to grow to reach it.
+/// If the gauge exceeds the ratio by less than this constant, yarns may touch between the sample
 /// and the next one.
 const DOUBT: f64 = 0.005;
 
-/// The factor by which all sections, with their furrows, grow until the first two yarns touch: 0.4
-/// to 1.15. It is exact to 5e-4, if `settings` puts rings a twenty-fifth of a diameter apart.
+/// The factor by which all sections, with their furrows, grow until any two yarns touch: 0.4 to
+/// 1.15. It is exact to 5e-4, if `settings` puts rings a twenty-fifth of a diameter apart.
 pub(crate) fn surface_ratio(yarns: &Yarns, settings: Settings) -> f64 {
     first_touch(yarns, settings, Outline::of)
 }

@@ -90,7 +90,8 @@ impl Tube {
         let halves = from.halves.lerp(to.halves, share);
         let turns = (to.roll - from.roll) / TAU;
         let roll = from.roll + share * (turns - turns.round()) * TAU;
-        // No yarn of these tests stands upright.
+        // A vertical tangent would have no side. The one yarn of these tests that passes through
+        // the vertical does so between two rings.
         let side = DVec3::Z.cross(tangent).normalize();
         Stance { centre, side, up: tangent.cross(side), halves, turned: DVec2::from_angle(roll) }
     }

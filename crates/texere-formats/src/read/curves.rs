@@ -16,8 +16,9 @@ use super::usd::usd;
 use crate::bcc_file::{INFO_BYTES, SIGN, Spline, Z_UP};
 use crate::yarns_file::BYTES_MAX;
 
-/// Reads a file of curves. Each curve becomes a round yarn, a spline of tension 0 through the
-/// curve's points. If a unit is 1 mm, coordinates are kept to the bit.
+/// Reads a file of curves. Each curve becomes a yarn. If nothing else is said below, the yarn is
+/// round, and a spline of tension 0 through the curve's points. If the file's unit is 1 mm,
+/// coordinates are kept to the bit.
 ///
 /// A file that ends in `.obj` is read as Wavefront OBJ. Its polylines (statements `l`) are the
 /// curves, and all else in it, such as faces, is passed over. A polyline that begins where the one
@@ -35,22 +36,24 @@ use crate::yarns_file::BYTES_MAX;
 /// refer to others, or have variants, are refused.
 ///
 /// A file that ends in `.tg3` (feature `texgen`) is read as one of TexGen, the University of
-/// Nottingham's modeller of textiles. Each of its yarns becomes one yarn, whole and once: repeats
-/// and the domain are passed over. Its path, by Bézier curves, cubic splines or straight lines
-/// between master nodes, becomes a spline as the curves of USD do. The yarn has the width and the
-/// height of its section at each node, and its shape; a yarn whose sections have several shapes is
-/// elliptic.
+/// Nottingham's modeller of textiles. Each yarn of the file becomes one yarn, whole and once:
+/// repeats and the domain are passed over. The path of a yarn runs between master nodes by Bézier
+/// curves, cubic splines or straight lines, and becomes a spline as the curves of USD do. At each
+/// node the yarn has the width and the height of its section there. The yarn has the shape of its
+/// sections, or is elliptic if they have several shapes.
 ///
 /// Any other file is read as BCC, Binary Curve Collection. If a BCC or a USD file says that x or y
 /// is up, the curves are turned so that this axis becomes z.
 ///
 /// **Errors**: [`ReadError::Bytes`], which names the byte, for a BCC file that is cut short, goes
-/// on after its last curve, has counts that do not fit one another, or is of another kind;
-/// [`ReadError::Word`], which names line and column, for a word that OBJ, USD or TexGen does not
-/// allow at its place; [`ReadError::Syntax`] for what is no XML; [`ReadError::Section`] for a
-/// section that no yarn may have; [`ReadError::MissingKey`] for a file without curves, and for a
-/// BCC or an OBJ file if `scale` has no diameter; [`ReadError::Yarns`] for coordinates or a
-/// diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16 GiB;
+/// on after its last curve, has counts that do not fit one another, or is of another kind, and for
+/// a USD or TexGen file that is not text; [`ReadError::Word`], which names line and column, for a
+/// word that OBJ, USD or TexGen does not allow at its place; [`ReadError::Syntax`] for what is no
+/// XML; [`ReadError::Section`] for a section that no yarn may have; [`ReadError::MissingKey`] for
+/// an OBJ or USD file without curves, for a TexGen file without a textile, and for a BCC or an OBJ
+/// file if `scale` has no diameter; [`ReadError::Yarns`] for a BCC file without curves, and for
+/// coordinates or a diameter that no yarn may have; [`ReadError::TooLarge`] for a file beyond 16
+/// GiB;
 /// [`ReadError::Feature`] for a kind of file that this build was made without;
 /// [`ReadError::OutOfMemory`], [`ReadError::NotAFile`], [`ReadError::Io`].
 ///

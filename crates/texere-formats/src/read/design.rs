@@ -124,8 +124,8 @@ impl Design {
         Self { knitted_from: Some(from), faults, ..self }
     }
 
-    /// The program of a weft knit, with the file that it comes from. None for other designs, and
-    /// for a knit that a program made itself.
+    /// The knitting program of a weft knit, with the file that it comes from. None for other
+    /// designs, and for a knit that was not read but made with [`Design::of`].
     pub(crate) const fn knitted_from(&self) -> Option<&KnittedFrom> {
         self.knitted_from.as_ref()
     }
@@ -206,10 +206,10 @@ impl Design {
         Self { files: files.iter().map(absolute).collect(), ..self }
     }
 
-    /// The files that the design was read from: its own file, and the images, WIF draft or knitting
+    /// The files that the design was read from: its own file, and the images, draft or knitting
     /// program that it names. The list is empty for a design that was read [from
     /// memory](super::read_from). [`Output::sparing`](crate::write::Output::sparing) keeps a writer
-    /// from replacing them.
+    /// from replacing these files.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {
         &self.files

@@ -1,4 +1,4 @@
-//! Errors of reading designs and saved yarns.
+//! Errors of reading designs, saved yarns and curves.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -76,7 +76,7 @@ fn plain(text: &str) -> String {
 }
 
 /// A note for errors about a text with a character that looks like the hyphen of the keyboard
-/// (U+002D) and is another one, such as a dash. Empty for other texts.
+/// (U+002D) but is a different character, such as a dash. Empty for other texts.
 pub(super) fn no_hyphen(text: &str) -> String {
     let sign = hyphen_look_alike(text);
     sign.map(|sign| format!(" (there is {sign}, not a hyphen)")).unwrap_or_default()
@@ -115,7 +115,7 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// A design or a file of saved yarns that can't be read.
+/// A design, or a file of saved yarns or of curves, that can't be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -377,7 +377,8 @@ pub enum ReadError {
         /// The file.
         file: PathBuf,
     },
-    /// A value that the format of a binary file does not allow at its place.
+    /// A value that the format of a binary file does not allow at its place, or a file that should
+    /// be text and is not.
     #[error("{}, byte {at}: {field} is {value}, expected {expected}", named(.file))]
     Bytes {
         /// The file.
@@ -391,7 +392,7 @@ pub enum ReadError {
         /// What the value should be.
         expected: String,
     },
-    /// Saved yarns with values that yarns can't have.
+    /// Saved yarns or curves with values that yarns can't have.
     #[error("{} holds no valid yarns", named(.file))]
     Yarns {
         /// The file.

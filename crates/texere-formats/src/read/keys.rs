@@ -243,8 +243,8 @@ impl Keys {
     }
 
     /// The place of the first of `keys` that the thread's yarn has, or else of the yarn's table.
-    /// The yarn is the one called `name`, or else the file's only yarn. Without a yarn it is the
-    /// place of the key that says which yarns are threaded.
+    /// The yarn is the one called `name`, or else the file's only yarn. If no yarn is found, the
+    /// place is that of the key that says which yarns are threaded.
     fn yarn(&self, thread: Origin, name: Option<String>, keys: &[&str]) -> Option<FilePlace> {
         let only = || {
             let own =

@@ -1,4 +1,5 @@
-//! The program of a weft knit, kept to say where its yarn comes from.
+//! The program of a weft knit. It is kept to say which line or cell a piece of yarn comes from, and
+//! to write the design again.
 
 use std::path::PathBuf;
 
@@ -8,7 +9,7 @@ use super::FilePlace;
 use super::error::named;
 use super::program_place::ProgramPlace;
 
-/// What the source of each operation of a program numbers: lines of a file, or cells of a chart.
+/// What the number in [`Operation::source`] stands for: a line of a file, or a cell of a chart.
 #[derive(Debug, Clone)]
 pub(crate) enum Drawn {
     /// Lines of a file, counted from 1.

@@ -5,7 +5,7 @@
 pub struct MachineFault {
     /// The place in the program, and the fault.
     pub message: String,
-    /// Whether a machine can't do the step. If false, a machine can knit the program, but the cloth
-    /// may not be what was meant.
+    /// Whether a machine can't do the step. If false, a machine can do it, but the cloth may not be
+    /// what was meant.
     pub is_error: bool,
 }

@@ -1,8 +1,8 @@
 //! Curves of other programs, and the splines of texere that have their shape.
 //!
 //! A spline runs through its control points, so the ends of Bézier pieces are such points. If all
-//! curves are splines of one tension, these points are enough. Else intervals in which a spline of
-//! tension 0 runs beside the pieces are halved, again and again.
+//! curves are splines of one tension, these points are enough. Else each interval in which a spline
+//! of tension 0 runs too far beside the pieces is halved, again and again.
 
 use texere_core::OutOfMemory;
 use texere_core::backend::{room, room_for};
@@ -15,8 +15,8 @@ pub(super) type Place = [f64; 4];
 pub(super) struct Curve {
     pub(super) shape: Shape,
     pub(super) is_closed: bool,
-    /// Whether the file has radii at the ends of pieces alone. Between them they are as the spline
-    /// has them.
+    /// Whether the file has radii at the ends of pieces alone. Between the ends, the radii are the
+    /// spline's own.
     pub(super) has_radii_at_ends: bool,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Curve {
 pub(super) enum Shape {
     /// A spline of tension 0 runs through these places.
     Through(Vec<Place>),
-    /// Bézier curves of four places each, each of which begins where the one before it ends.
+    /// Bézier curves of four places each. A curve begins where the one before it ends.
     Pieces(Vec<[Place; 4]>),
 }
 
@@ -38,8 +38,9 @@ const SHORTEST: f64 = 1.0 / 64.0;
 /// fails.
 const BESIDE: f64 = 0.01;
 
-/// How much another radius the spline may have than the curve, as a share of the radius. It shows
-/// less than a shift does. Without it the test `widths_within_a_piece_are_kept` fails.
+/// The most by which the spline's radius may differ from the curve's, as a share of the radius. A
+/// difference of radii shows less than a shift does. Without this limit the test
+/// `widths_within_a_piece_are_kept` fails.
 const THICKER: f64 = 0.02;
 
 /// The one tension with which splines through the ends of all pieces have the pieces' shape, if
@@ -51,7 +52,8 @@ pub(super) fn tension<'a>(curves: impl Iterator<Item = &'a Curve> + Clone) -> Op
         square += dot(step, step);
     });
     let is_through = |curve: &Curve| matches!(curve.shape, Shape::Through(_));
-    // The handle of a spline of tension 0 is a sixth of the way between its neighbours.
+    // With tension 0, the handle at a control point is a sixth of the way between the point's
+    // neighbours.
     let share = if curves.clone().any(is_through) || square == 0.0 { 1.0 / 6.0 } else { along / square };
     // A closed yarn has three control points or more.
     let is_short =
@@ -65,9 +67,11 @@ pub(super) fn tension<'a>(curves: impl Iterator<Item = &'a Curve> + Clone) -> Op
     fits.then_some((1.0 - 6.0 * share).max(0.0) as f32)
 }
 
-/// Calls `each` for both handles at each end of a Bézier piece: from the end to the handle, and
-/// between the neighbours of the end, with the radius there. At the two ends of an open curve the
-/// neighbour beyond it is as far away as the one within.
+/// Calls `each` for both handles of each Bézier piece, with two steps and a radius. The first step
+/// goes from an end of the piece to the handle there. The second step goes past this end, from one
+/// neighbour to the other: the neighbours are the nearest ends of pieces before and after it. The
+/// radius is that of the end. An end of an open curve has only one neighbour. The other one is
+/// taken to lie on the opposite side of the end, as far away.
 fn handles<'a>(curves: impl Iterator<Item = &'a Curve>, mut each: impl FnMut(&Curve, [Place; 2], f64)) {
     let from_to = |from: Place, to: Place| std::array::from_fn(|axis| to[axis] - from[axis]);
     for curve in curves {
@@ -139,8 +143,8 @@ impl Cut {
     }
 }
 
-/// The cuts, and one more in the middle of each interval in which the spline runs beside the
-/// pieces. None if it does nowhere, or if such intervals are the shortest already.
+/// The cuts, and one more in the middle of each interval in which the spline runs too far beside
+/// the pieces. None if there is no such interval, or if all of them are the shortest already.
 fn halved(pieces: &[[Place; 4]], cuts: &[Cut], is_closed: bool) -> Result<Option<Vec<Cut>>, OutOfMemory> {
     let count = cuts.len();
     let place = |cut: usize| cuts[cut % count].place;

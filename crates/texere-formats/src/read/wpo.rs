@@ -30,7 +30,8 @@
 //! for shaft or treadle 1. What follows the colours is passed over: titles, notes, and the spacing
 //! and thickness of single threads.
 //!
-//! That description has no unit of the setts. The unit above agrees with all of its sample files.
+//! The description has no unit of the setts. The unit above agrees with all sample files of
+//! `dtx_to_wif`.
 
 use std::path::Path;
 
@@ -163,8 +164,8 @@ fn threading(bytes: &mut Bytes<'_>, shafts: u8) -> Result<Vec<Vec<u32>>, ReadErr
     numbers(bytes, [field, shaft], (at, ends), shafts)
 }
 
-/// A list of numbers of one byte each, from 0 to `most`, where 0 stands for none. `fields` name the
-/// count and an item of the list.
+/// A list of numbers of one byte each, from 0 to `most`, where 0 stands for none. Errors call the
+/// count `field`, and a number of the list `item`.
 fn numbers(
     bytes: &mut Bytes<'_>,
     [field, item]: [&'static str; 2],

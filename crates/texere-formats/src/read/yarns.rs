@@ -113,7 +113,7 @@ pub fn yarns_from(name: impl AsRef<Path>, bytes: &[u8]) -> Result<SavedYarns, Re
 }
 
 /// Reads the header up to the file's length, and checks the file by that length and by its
-/// checksum. Returns the bits that announce the lists behind the control points.
+/// checksum. Returns the bits that announce optional lists.
 fn start(bytes: &mut Bytes<'_>) -> Result<u32, ReadError> {
     let magic: [u8; MAGIC.len()] = bytes.take("the beginning")?;
     if magic != MAGIC {

@@ -27,7 +27,7 @@ pub struct CheckReport {
     #[serde(flatten)]
     faults: FaultsReport,
     drawn: DrawnReport,
-    /// A warning of twist that a mesh with the usual settings does not show.
+    /// A warning of twist that the measured mesh does not show.
     #[serde(skip_serializing_if = "Option::is_none")]
     undersampled: Option<String>,
     /// Only for woven cloth.
@@ -202,11 +202,12 @@ impl CheckReport {
     }
 
     /// Looks for single changes of the design that cure the faults of `cloth`, the cloth of this
-    /// report. Changes of woven cloth are tried on the cloth as its structure places it. If the
-    /// cloth has settled, wider spacings and thinner yarns are tried, and settle on `device`. No
-    /// changes are tried for cloth that its design stretches, nor for knits. More rings are tried
-    /// for any cloth whose mesh is wrung or inside out. `progress` gets the share that is done,
-    /// from 0 to 1. If it asks to stop, only the cures found so far are reported.
+    /// report. For woven cloth that has not settled, changes are tried on the cloth as its
+    /// structure places it. For woven cloth that has settled, wider spacings and thinner yarns are
+    /// tried, and the changed cloth settles on `device`. No changes are tried for knits, nor for
+    /// cloth that has settled after its design stretched it. More rings are tried for any cloth
+    /// whose mesh is wrung or inside out. `progress` gets the share that is done, from 0 to 1. If
+    /// it asks to stop, only the cures found so far are reported.
     ///
     /// **Errors**: a [`Refusal`] if the cloth can't be measured.
     pub fn find_cures(

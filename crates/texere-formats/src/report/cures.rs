@@ -102,8 +102,8 @@ fn change(remedy: &Remedy) -> Option<(&'static str, String, String)> {
         Remedy::Diameter { thickest_mm: [before, after] } if LENGTHS_MM.contains(after) => (
             "diameter_mm of every yarn",
             format!("{after:.4}"),
-            // The cure is the same cloth at another scale, so that a yarn's tex changes with the
-            // square of its diameter.
+            // Thinner yarns make the cloth of the wider spacing at another scale, so that a yarn's
+            // tex changes with the square of its diameter.
             format!(
                 "for the thickest instead of {before:.4} mm, every yarn {:.4} times as thick, with {:.4} times its tex",
                 after / before,

@@ -67,7 +67,7 @@ struct KnitReport {
 #[derive(Debug, Serialize)]
 struct BarReport {
     lapping: String,
-    /// The length of yarn for a rack of 480 courses that the design asks for, mm. None if it asks
+    /// The length of yarn that the design asks for in a rack of 480 courses, mm. None if it asks
     /// for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     run_in_asked_mm: Option<f64>,

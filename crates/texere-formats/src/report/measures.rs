@@ -19,7 +19,7 @@ impl<T> From<BySet<T>> for Sets<T> {
     }
 }
 
-/// [`Measures`] with the names of threads and colours.
+/// [`Measures`] with the names and colours of yarns.
 #[derive(Debug, Serialize)]
 pub(crate) struct MeasuresReport {
     /// Length of all yarn, mm.

@@ -25,7 +25,7 @@ pub struct StrainReport {
     tests: Vec<Tested>,
 }
 
-/// A test along one way.
+/// A test along the courses, along the wales or along both.
 #[derive(Debug, Serialize)]
 struct Tested {
     /// `courses`, `wales` or `both`.
@@ -79,7 +79,7 @@ struct State {
 }
 
 impl StrainReport {
-    /// The report of `tests` of a design, which `device` has made.
+    /// The report of the `tests` that `device` has made of a design.
     #[must_use]
     pub fn new(design: &Design, device: &str, tests: &[StrainTest]) -> Self {
         let tests = tests.iter().map(Tested::new).collect();

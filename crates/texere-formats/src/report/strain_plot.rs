@@ -9,7 +9,8 @@ const RIGHT: f64 = 560.0;
 const TOP: f64 = 30.0;
 const BOTTOM: f64 = 440.0;
 
-/// The most steps between the numbers on an axis.
+/// The most steps that the values on an axis span, before the ends of the axis are rounded to whole
+/// steps.
 const STEPS: f64 = 8.0;
 
 /// The share of a step by which a value may lie outside of the axis. Forces at rest are not quite

@@ -11,7 +11,8 @@ use super::mesh_form::Attributes;
 use super::mesh_writer::{Run, yarn_runs};
 use super::places::RingForm;
 
-/// The most vertices of a batch without attributes. Copies of them take 150 kB at most.
+/// The most vertices of a batch if the file has neither texture coordinates nor tangents. Copies of
+/// a batch then take some hundred kilobytes at most.
 const BATCH: usize = 4096;
 
 /// Vertices of one yarn that follow one another in the file.
@@ -45,7 +46,7 @@ pub(super) struct Surface {
 }
 
 /// Gathers vertices that come piece by piece into batches. With texture coordinates or tangents a
-/// batch is a ring or a cap, because both follow from all vertices of it.
+/// batch is a ring or a cap, because these attributes follow from all vertices of a ring or a cap.
 #[derive(Debug)]
 pub(super) struct Corners {
     attributes: Attributes,
@@ -143,16 +144,16 @@ fn position(vertex: &Vertex) -> DVec3 {
     DVec3::from(vertex.position.map(f64::from))
 }
 
-/// The direction of the yarn at a ring: that at right angles to the ring's plane. A ring runs
-/// counter-clockwise seen against it.
+/// The direction of the yarn at a ring, at right angles to the ring's plane. Seen against this
+/// direction, the ring runs counter-clockwise.
 fn along(ring: &[Vertex], middle: DVec3) -> DVec3 {
     let spokes = || ring.iter().map(|vertex| position(vertex) - middle);
     // The areas of the triangles between middle and ring, as vectors.
     spokes().zip(spokes().cycle().skip(1)).map(|(one, next)| one.cross(next)).sum()
 }
 
-/// The unit vector nearest to `direction` at right angles to the normal of a vertex. If there is
-/// none, any at right angles to it.
+/// The unit vector nearest to `direction` at right angles to the normal of a vertex. If no vector
+/// is nearest, any unit vector at right angles to the normal.
 fn on_surface(direction: DVec3, vertex: &Vertex) -> [f32; 3] {
     let normal = DVec3::from(vertex.normal.map(f64::from));
     let nearest = direction - normal * (direction.dot(normal) / normal.length_squared());

@@ -23,8 +23,8 @@ pub enum CurveFormat {
     /// The text form of Universal Scene Description: curves with diameters and colours.
     Usda,
     /// USD's text form with straight lines between control points, for simulators that read no
-    /// other curves. The lines have a thickness and a mass. No extension stands for this format
-    /// alone: [`Output::linear`](super::Output::linear) asks for it.
+    /// other curves. The lines have a thickness and, if the yarns have a tex, a mass. No extension
+    /// stands for this format alone: [`Output::linear`](super::Output::linear) asks for it.
     LinearUsda,
 }
 

@@ -99,7 +99,7 @@ pub enum WriteError {
     /// numbers those of a yarn with 31. Fewer sides or subdivisions make fewer vertices.
     #[error(
         "{format} of {vertices} vertices or more, but the format ends at {limit}; {}use fewer sides or subdivisions",
-        // Other yarns may have too many vertices for PLY.
+        // A mesh with more vertices than PLY can number gets no advice to write PLY.
         if *.format == "OBJ" && *.vertices <= PLY_VERTICES { "write a PLY file, or " } else { "" }
     )]
     TooManyVertices {
@@ -213,7 +213,7 @@ pub enum WriteError {
         courses: usize,
         /// The most wales, and the most courses, that are drawn.
         side: usize,
-        /// The most squares that are drawn.
+        /// The most squares that are drawn. For a warp knit, the number of squares of its diagram.
         squares: usize,
     },
     /// The boundary is that of other yarns.

@@ -107,7 +107,8 @@ impl<'a, W: Write + Seek + 'a> Feed<'a, W> {
         let writer = writer(form, target, plan, &mut chunks, materials, bounds)?;
         // Chunks that the writer has not gone through count as well.
         chunks.for_each(drop);
-        // Chunks of a plan with room have more vertices than the mesh.
+        // If the plan has room for more control points (`Plan::with_room`), its chunks have more
+        // vertices than the mesh.
         let given = planned - repeated;
         if given != plan.counts().vertices {
             return Err(WriteError::VertexCount { given, planned: plan.counts().vertices });

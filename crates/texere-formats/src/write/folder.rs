@@ -9,7 +9,7 @@ use super::unfinished::UnfinishedFolder;
 
 /// Makes a folder at `path`. `fill` gets the path of an unfinished folder, and writes the files
 /// into it. The unfinished folder then takes the name `path`. If `fill` fails, or the program ends
-/// first, there is no folder at `path`.
+/// first, `path` stays as it was: nothing is there, or an empty folder.
 ///
 /// **Errors**: the error of `fill`; [`WriteError::Io`] if there is something at `path` already that
 /// is not an empty folder, or if the file system refuses.

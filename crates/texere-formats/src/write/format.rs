@@ -22,14 +22,15 @@ pub enum Format {
     /// are whole numbers, as the extension `KHR_mesh_quantization` allows. Coordinates are off by
     /// half a step at most. There are 65,534 steps in the largest side of the box that a yarn lies
     /// in: a step is 1.5 µm if that side has 10 cm, and a side of more than 655 mm is refused.
-    /// Normals are off by 0.4 degrees at most. The mesh is made twice: first to find those boxes.
+    /// Normals are off by 0.4 degrees at most. The mesh is made twice: first to find the boxes of
+    /// the yarns.
     ///
     /// No extension stands for this format alone: [`Output::packed`](super::Output::packed) asks
     /// for it.
     PackedGlb,
     /// The packed form of glTF 2.0 binary, compressed: 6 to 7 bytes for a vertex, and a byte or two
     /// for a triangle of the longest yarn instead of 12. `EXT_meshopt_compression` is the
-    /// extension. Positions are those of the packed form. Normals are off by 0.9 degrees at most.
+    /// extension. Positions are those of the packed form. Normals are off by 1 degree at most.
     /// Unpacked, the file has up to 4 GiB.
     ///
     /// The bytes are gathered before they are written. Beyond some megabytes they lie in unnamed
@@ -46,12 +47,12 @@ pub enum Format {
     /// [`Output::khr_compressed`](super::Output::khr_compressed) asks for it.
     KhrCompressedGlb,
     /// glTF 2.0 binary that holds each part of a yarn once, however often it recurs, up to 4 GiB.
-    /// `EXT_mesh_gpu_instancing` is the extension. A part is as long as 16 control intervals, or a
-    /// cap. Parts are equal if they have the same material, and their shapes differ by a millionth
-    /// of the cloth's largest coordinate at most, never by more than 0.005 mm, and normals by half
-    /// a degree. A Jacquard cloth of 254 million triangles takes 15 MB instead of 3 GB. A cloth
-    /// whose different parts take more than 256 MiB is refused. The mesh is made twice: first to
-    /// find its box.
+    /// `EXT_mesh_gpu_instancing` is the extension. A part is a cap, or a piece of tube as long as
+    /// 16 control intervals, or shorter at a yarn's end. Equal parts have the same material. Their
+    /// coordinates differ by a millionth of the cloth's largest coordinate at most, and never by
+    /// more than 0.005 mm. Their normals differ by half a degree at most. A Jacquard cloth of 254
+    /// million triangles takes 15 MB instead of 3 GB. A cloth whose different parts take more than
+    /// 256 MiB is refused. The mesh is made twice: first to find its box.
     ///
     /// No extension stands for this format alone: [`Output::instanced`](super::Output::instanced)
     /// asks for it.

@@ -19,8 +19,9 @@ use super::{Output, WriteError};
 pub struct Written {
     /// Bytes of the file.
     pub bytes: u64,
-    /// Vertices of the mesh. A ring that chunks repeat counts once. An instanced file draws as many
-    /// and holds fewer.
+    /// Vertices of the mesh. A ring that chunks repeat counts once. If the file has texture
+    /// coordinates, each ring counts one vertex more, except in OBJ. STL files and instanced files
+    /// hold another number of vertices.
     pub vertices: u64,
     /// Triangles of the mesh, all of which the file draws.
     pub triangles: u64,
@@ -167,11 +168,12 @@ pub fn stream_to(
 }
 
 /// Writes the mesh of a [run](Run) piece by piece, in the format that the extension of `output`
-/// stands for: for a program that has a plan already, where [`stream`] makes one. `materials` are
-/// those of the plan's yarns.
+/// stands for. The function is meant for a program that has a plan already. [`stream`] makes a plan
+/// itself. `materials` are those of the plan's yarns.
 ///
-/// The plan may have any topology. With [`Topology::None`] or [`Topology::Shared`] the device
-/// writes no index for nothing: [`Plan::with_topology`](texere_core::backend::Plan::with_topology).
+/// The plan may have any topology, because no index is read. With [`Topology::None`] or
+/// [`Topology::Shared`] the device does not write indices in vain.
+/// [`Plan::with_topology`](texere_core::backend::Plan::with_topology) gives such a plan.
 ///
 /// **Errors**: the errors of [`stream`].
 ///
@@ -261,7 +263,7 @@ fn bounds(mesh: &Mesh) -> Result<Bounds, WriteError> {
     Ok(bounds)
 }
 
-/// The boxes of the yarns of a run, which makes its whole mesh for them.
+/// The boxes of the yarns of a run. The run makes its whole mesh once for the boxes alone.
 fn survey(run: &mut Run<'_>, chunks: impl IntoIterator<Item = Chunk>) -> Result<Bounds, WriteError> {
     let mut bounds = Bounds::new(run.plan())?;
     let _ = run.survey(chunks, |chunk, piece| {

@@ -16,10 +16,10 @@ pub enum VertexAttribute {
     /// distance along the yarn, mm. A ring has one vertex more for them, because the turn begins at
     /// 0 and ends at 1. A cap takes the circle that touches the texture's edges.
     Uv,
-    /// The unit direction along the yarn on its surface, at right angles to the normal, and the
-    /// sign with which the bitangent runs in the direction of the growing turn: -1. On a cap the
-    /// direction is that of its growing first texture coordinate, and the bitangent runs in that of
-    /// the second. PLY and USD hold no sign.
+    /// The unit direction along the yarn on its surface, at right angles to the normal, and a sign.
+    /// The bitangent is normal × tangent × sign. On a tube the sign is -1, so that the bitangent
+    /// runs round the yarn with the growing turn. On a cap the tangent runs with the growing first
+    /// texture coordinate, and the bitangent with the second. PLY and USD hold no sign.
     Tangent,
     /// The number of the yarn among all yarns of the cloth, counted from 0.
     Yarn,

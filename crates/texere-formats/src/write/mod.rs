@@ -27,10 +27,11 @@
 //! A file does not depend on the mesh's [`Topology`](texere_core::Topology), nor on where its
 //! chunks are cut. The triangles follow from the plan, so no index has to come from a device. A
 //! ring that chunks repeat is written once. The triangles of a yarn therefore share vertices from
-//! its first ring to its last. Even a reader that does not join equal vertices gets each yarn as
-//! one piece. Only caps have vertices of their own, because their normals differ from those of the
-//! rings that they close. Their positions are equal to the ring's to the bit. All yarns share an
-//! index pattern, which GLB holds only once. This halves the file.
+//! its first ring to its last, except in STL, which has no shared vertices. Even a reader that does
+//! not join equal vertices gets each yarn as one piece. Only caps have vertices of their own,
+//! because their normals differ from those of the rings that they close. The positions of a cap are
+//! equal to those of its ring to the bit. All yarns share an index pattern, which GLB holds only
+//! once. This halves the file.
 //!
 //! An [instanced](Output::instanced) GLB is another matter. It has a node for each part of a yarn
 //! that differs from the others, and parts share no vertices. Where two parts meet, or a part and a
@@ -41,8 +42,8 @@
 //! handles a signal calls [`abandon`] before it ends. The next write in a folder removes files that
 //! a killed process left there. An [`Output`] says which files must not be replaced.
 //!
-//! [`folder`](fn@folder) does the same for a folder of files, but never replaces one that has files
-//! in it.
+//! [`folder`](fn@folder) makes a folder of files in the same way, but never replaces a folder that
+//! has files in it. If the process is killed, the unfinished folder stays.
 //!
 //! Each function that writes a file, except [`file`](fn@file), has a twin whose name ends in `_to`.
 //! The twin writes the same bytes to any writer of the caller's: memory, an archive, a connection.

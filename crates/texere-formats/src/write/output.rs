@@ -134,8 +134,8 @@ impl Output {
         self
     }
 
-    /// Writes parts of yarns that recur once, as [`Format::InstancedGlb`]. The path has to end in
-    /// `.glb`.
+    /// Writes each part of a yarn once, however often it recurs, as [`Format::InstancedGlb`]. The
+    /// path has to end in `.glb`.
     ///
     /// ```
     /// use texere_core::{ControlPoint, Pipeline, Yarn, Yarns};
@@ -208,9 +208,9 @@ impl Output {
 
     /// The format of a mesh at this output, and the attributes of its vertices.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] for an ending that has
-    /// no such form, and [`WriteError::Unheld`] for straight lines and for attributes that the
-    /// format can't hold.
+    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] if the path lacks the
+    /// ending that the output's form needs, and [`WriteError::Unheld`] for straight lines and for
+    /// attributes that the format can't hold.
     pub(super) fn mesh_form(&self) -> Result<MeshForm, WriteError> {
         self.check_form()?;
         let format = match self.form {
@@ -228,8 +228,9 @@ impl Output {
 
     /// The format of curves at this output.
     ///
-    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] for an ending that has
-    /// no such form, and [`WriteError::Unheld`] if vertices are to have attributes.
+    /// **Errors**: [`WriteError::UnknownFormat`], [`WriteError::NotEnding`] if the path lacks the
+    /// ending that the output's form needs, and [`WriteError::Unheld`] if vertices are to have
+    /// attributes.
     pub(super) fn curve_format(&self) -> Result<CurveFormat, WriteError> {
         self.check_form()?;
         if self.attributes.any() {

@@ -71,8 +71,8 @@ fn encode<W: Write>(
     written.map_err(|error| target.failed(refused(error)))
 }
 
-/// The error of the writer to which an encoder writes, or else what the encoder refuses. The
-/// encoder's own conversion keeps the words of the writer's error alone.
+/// The writer's own error if the writer refused bytes, or else the encoder's error. The conversion
+/// that the encoder's crate offers would keep only the text of the writer's error.
 pub(super) fn refused(error: png::EncodingError) -> io::Error {
     match error {
         png::EncodingError::IoError(error) => error,

@@ -12,16 +12,16 @@ use super::target::Target;
 /// the system removes even if the process is killed.
 const MEMORY_BYTES: usize = 1 << 20;
 
-/// Bytes that are to follow others in a file, before it is known how many those are.
+/// Bytes of a file that wait until it is known how many bytes stand before them.
 #[derive(Debug)]
 pub(super) struct Spool {
     bytes: Target<SpooledTempFile>,
 }
 
 impl Spool {
-    /// An empty spool for the file at `path`. If it needs a file, that lies in the same folder, on
-    /// a disk that has to hold the bytes anyway. Without a path it lies in the system's folder for
-    /// such files.
+    /// An empty spool for the file at `path`. If the spool needs a file of its own, that file lies
+    /// in the folder of `path`, on a disk that has to hold the bytes anyway. Without a `path` it
+    /// lies in the system's folder for temporary files.
     pub(super) fn beside(path: Option<&Path>) -> Self {
         let file = match path {
             Some(path) => {

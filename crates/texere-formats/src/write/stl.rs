@@ -133,7 +133,7 @@ impl<W: Write + Seek> MeshWriter<W> for StlWriter<'_, W> {
         Ok(())
     }
 
-    /// All facets of the chunk have been written with its vertices.
+    /// Nothing is left to write: facets are written with the vertices of rings and caps.
     fn triangles(&mut self, chunk: &Chunk, _: &Places) -> Result<(), WriteError> {
         self.goes_on = chunk.repeats_ring();
         Ok(())

@@ -2,9 +2,9 @@
 //!
 //! Unfinished files do not stay behind. After an error or a panic the file is removed when its
 //! owner is dropped. Before a signal ends the program, [`abandon`] removes the file. The next write
-//! in a folder removes files that a killed process left there. They are recognised by their locks:
-//! a writer holds a lock on its file, and the system releases the lock when the process ends. A
-//! file without a lock is a leftover.
+//! in a folder removes files that a killed process left there. A file without a lock is such a
+//! leftover: a writer holds a lock on its file, and the system releases the lock when the process
+//! ends. An unfinished folder has no lock, and stays if the process is killed.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -24,8 +24,8 @@ const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// The most files that a writer starts. It starts another one if a writer that started at the same
-/// moment took its file for a leftover and removed it.
+/// The most files that a writer starts for one output. The writer starts another file if a second
+/// writer, which began at the same moment, took the first file for a leftover.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -66,7 +66,7 @@ pub fn abandon() {
     let mut registry = registry();
     registry.abandoned = true;
     for file in std::mem::take(&mut registry.files) {
-        // A file that can't be removed now is removed by a later write.
+        // A later write removes a file that can't be removed now. A folder stays.
         let _ = if file.is_dir() { fs::remove_dir_all(file) } else { fs::remove_file(file) };
     }
 }

@@ -164,7 +164,7 @@ fn by_basis(basis: &str, vertices: [Vec3; 4], t: f32) -> Vec3 {
     (0..4).map(|vertex| weight(vertex) * vertices[vertex]).sum()
 }
 
-/// The vertices of a yarn's curve in four at a time, one quadruple for each interval.
+/// The vertices of a yarn's curve, four at a time: one quadruple for each interval.
 fn quadruples(basis: &str, own: &[Vec3], is_closed: bool) -> Vec<[Vec3; 4]> {
     match (basis, is_closed) {
         // A periodic curve starts at its first vertex, and goes on from its last one to its first.
@@ -204,8 +204,9 @@ fn curves_of_usd_are_the_splines_of_the_yarns() {
                 for (interval, four) in pieces.into_iter().enumerate() {
                     let window = neighbours(points, is_closed, interval);
                     let segment = Segment::new(&window, tangent_factor(tension));
-                    // A yarn's end stands twice in the file, where the yarn's spline goes on in a
-                    // straight line: t (1 - t)² / 2 of the interval lies between both.
+                    // The file has the end point of a yarn twice. The yarn's spline instead goes on
+                    // beyond its end in a straight line. In the interval at an end the curves
+                    // are t (1 - t)² / 2 of the chord apart, 2/27 at most.
                     let is_end = !is_closed && (interval == 0 || interval + 1 == intervals);
                     let chord = window[1].position().distance(window[2].position());
                     let slack = if is_end && tension == 0.0 { 2.0 / 27.0 * chord } else { 0.0 };

@@ -102,8 +102,8 @@ fn yarns_of_every_structure_have_their_hairiness() {
     }
 }
 
-/// A bending stiffness that a design states counts, else that of its fibre and tex. Cotton, and
-/// yarn without tex, have none of their own.
+/// A yarn has the bending stiffness that the design states. Otherwise the stiffness follows from
+/// the yarn's fibre and tex. Cotton, and yarn without tex, have no stiffness of their own.
 #[test]
 fn yarns_bend_as_their_fibres_do() {
     for (said, bending) in [
@@ -526,7 +526,8 @@ fn a_number_that_is_far_too_small_is_not_written_in_zeros() {
     refused("tex = 84.0", "tex = -1e300", &["yarns.indigo.tex is -1e300"]);
 }
 
-/// A section without a surface is refused at its line in the file.
+/// A polygon whose outline faces nowhere at a corner is refused at its line in the file. The edges
+/// at such a corner are too short to have a direction, or they point opposite ways.
 #[test]
 fn a_polygon_without_a_direction_is_refused() {
     let corners = |corners: &str, parts: &[&str]| {
@@ -578,8 +579,9 @@ fn bytes_that_are_not_text_are_refused() {
     assert!(error.contains("line 2"), "{error}");
 }
 
-/// A yarn is as firm as its twist makes it. Filament without twist is soft, which has to be stated:
-/// where a design says nothing of twist, the yarn is cotton of ordinary twist.
+/// A yarn is as firm as its twist makes it. Filament without twist is soft, but the design has to
+/// state the twist of 0. If a design says nothing of twist, the yarn counts as cotton of ordinary
+/// twist.
 #[test]
 fn firmness_follows_twist() {
     let firmness = |lines: &str| {

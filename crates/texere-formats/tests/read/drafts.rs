@@ -43,7 +43,8 @@ struct Plan {
     palette: Vec<[u8; 3]>,
 }
 
-/// The numbers from 1 of what is set, with commas between them, or 0 if nothing is.
+/// The numbers of the flags that are set, counted from 1, with commas between them. If no flag is
+/// set, the text is 0.
 fn set(flags: &[bool]) -> String {
     let set = (1..).zip(flags).filter(|(_, is)| **is).map(|(number, _): (usize, _)| number.to_string());
     let set: Vec<_> = set.collect();
@@ -57,8 +58,9 @@ impl Plan {
         }
     }
 
-    /// Whether an end is up, by the words of a weaver: the pick lifts its shaft, or presses a
-    /// treadle that does.
+    /// Whether an end is up. In a rising shed an end is up if the pick lifts its shaft, or presses
+    /// a treadle that is tied to its shaft. In a sinking shed such an end is down, and all others
+    /// are up.
     fn up(&self, end: usize, pick: usize) -> bool {
         let shaft = self.threading[end];
         let lifted = shaft > 0

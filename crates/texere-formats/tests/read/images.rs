@@ -85,8 +85,9 @@ impl Tiff {
         let mut file = if self.big_endian { b"MM".to_vec() } else { b"II".to_vec() };
         file.extend(self.short(42));
         for (tags, data) in &self.pages {
-            // The offset of this directory is written at the end of the previous one, which is the
-            // end of the file so far.
+            // The offset of this directory. On the first page these four bytes belong to the
+            // file's header. On a later page nothing reads them, because the previous directory has
+            // the offset, too.
             let next = file.len() as u32 + 4 + data.len() as u32 + (data.len() % 2) as u32;
             file.extend(self.long(next));
             let strip = file.len() as u32;

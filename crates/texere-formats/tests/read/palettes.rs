@@ -6,8 +6,8 @@ use std::io::Write;
 
 use crate::images::design;
 
-/// Number of columns and of rows. A row has more pixels than a byte holds, and does not fill whole
-/// bytes.
+/// Number of columns and of rows. With 1, 2 or 4 bits a pixel a row needs more than one byte, and
+/// does not fill the last one.
 const SIZE: [usize; 2] = [11, 9];
 
 /// Checks that the warp is up where pixels are dark.
@@ -100,7 +100,8 @@ fn bmp(
         let numbers = row(if kind == Bmp::Downward { line } else { height - 1 - line });
         match kind {
             Bmp::Upward | Bmp::Downward => data.extend(packed(bits, &numbers)),
-            // The number is in both halves of a byte. The second half is no pixel.
+            // Each pixel is a run of its own. With 4 bits the number is in the first half of the
+            // byte, and the second half is no pixel.
             Bmp::Runs => data.extend(numbers.iter().flat_map(|&number| [1, packed(bits, &[number])[0]])),
             Bmp::Lists => {
                 data.extend([0, width as u8]);

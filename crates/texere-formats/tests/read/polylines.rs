@@ -86,7 +86,8 @@ fn what_obj_does_not_allow_is_refused_with_its_place() {
     assert!(matches!(error, ReadError::Yarns { .. }), "{error}");
 }
 
-/// A statement may be as long as the file, and its errors are found in time that grows with it.
+/// A statement may be as long as the file. The time to find an error in it is proportional to its
+/// length.
 #[test]
 fn one_long_polyline_is_read() {
     let count = 200_000;
@@ -98,7 +99,7 @@ fn one_long_polyline_is_read() {
     assert!(curves_from("long.obj", text.as_bytes(), SCALE).is_err());
 }
 
-/// The mesh of a file's yarns is that of the same yarns made in code.
+/// The yarns of a file have the control points and the settings of equal yarns made in code.
 #[test]
 fn a_file_of_lines_is_read_from_its_path() {
     let folder = tempfile::tempdir().unwrap();

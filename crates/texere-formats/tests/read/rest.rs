@@ -1,4 +1,4 @@
-//! A design comes to rest with splines of the given tension.
+//! Designs come to rest: with splines of the given tension, and knits also by their energy.
 
 use texere_contact::clearance;
 use texere_core::{Settings, YarnError};
@@ -42,9 +42,9 @@ fn cloth_has_the_tension_that_is_asked_for() {
     }
 }
 
-/// A knit at rest by its energy has the gauge that its yarns have found. Written as a design file
-/// and read again, it rests as the cloth that it was: jersey and rib to a thousandth. Locknit,
-/// which starts from other underlaps then, gets 2 % longer or shorter.
+/// A knit that comes to rest by its energy finds its own gauge. If it is written as a design file
+/// and read again, it comes to rest with nearly that gauge: jersey and rib to a thousandth. Locknit
+/// then starts from other underlaps, and gets 2 % longer or shorter.
 #[test]
 fn a_knit_finds_its_gauge_and_keeps_it() {
     let device = ParallelBackend::open().unwrap();
@@ -73,8 +73,8 @@ fn a_knit_finds_its_gauge_and_keeps_it() {
     }
 }
 
-/// The knits of the repository's designs whose search is short. Lace, cables, tulle and atlas come
-/// to rest, too, in 6 to 22 s each.
+/// The knits of the repository's designs that come to rest quickly. Lace, cables, tulle and atlas
+/// come to rest, too, in 6 to 22 s each.
 const KNITS: [&str; 13] = [
     "jersey",
     "rib",

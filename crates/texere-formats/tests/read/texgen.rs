@@ -48,8 +48,9 @@ const NODES: [[f64; 3]; 5] =
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [2.5, 0.0, -0.1], [3.0, 0.4, 0.0], [4.0, 0.0, 0.0]];
 
 /// Where TexGen 3.14 (pytexgen 1.2.1) places a yarn through `NODES` at a quarter, a half and three
-/// quarters of each interval, mm: kind of interpolation, whether it is periodic, whether tangents
-/// at nodes lie in the plane; then what else is special.
+/// quarters of each interval, mm. The text before the places says how the yarn is interpolated: the
+/// kind, 1 if it is periodic, and 1 if tangents at nodes lie in the plane. A last word names what
+/// else is special.
 const PATHS: &[(&str, &[[f64; 3]])] = &[
     (
         "Cubic 1 0",
@@ -275,7 +276,8 @@ fn paths_run_where_texgen_has_them() {
         }
         let yarns = read(&file(&yarn(&how, ROUND, &nodes))).unwrap();
         assert_eq!(places.len(), 3 * (count - 1), "{name}");
-        // A hundredth of the radius, and the steps of the search.
+        // A hundredth of the radius, or a fifth for straight lines. The steps of the search come on
+        // top.
         let most = if words[0] == "Linear" { 0.02 } else { 0.001 };
         for place in *places {
             let off = distance(&yarns, *place);
@@ -371,7 +373,7 @@ fn sections_of_nodes_widen_the_yarn() {
         assert!(found.iter().zip(halves).all(|(found, half)| (found - half).abs() < 2e-4), "{x}: {found:?}");
     }
     assert_eq!(yarns.layout().sections(), [Section::Circle]);
-    // Sections of several shapes are ellipses of each one's size.
+    // If the sections of a yarn have several shapes, each becomes an ellipse of its size.
     let lens = "<Section type=\"CSectionLenticular\" Width=\"0.4\" Height=\"0.2\" Distortion=\"0\" />";
     let mixed =
         section.replacen("<Section type=\"CSectionEllipse\" Width=\"0.4\" Height=\"0.2\" />", lens, 1);
@@ -413,7 +415,7 @@ fn a_ring_is_closed_and_a_height_may_point_anywhere() {
     assert!(yarns.ups().is_none());
     let open = read(&file(&yarn(&cubic.replace('1', "0"), ROUND, &ring))).unwrap();
     assert!(!open.layout().yarns()[0].closed);
-    // From z to y.
+    // The up direction turns from z to y, and back.
     let turned =
         "Position=\"0, 0, 0\" Up=\"0, 0, 2\"; Position=\"1, 0, 0\" Up=\"0, 3, 0\"; Position=\"2, 0, 0\"";
     let yarns = read(&file(&yarn(BEZIER, ROUND, turned))).unwrap();

@@ -240,7 +240,8 @@ fn widths_within_a_piece_are_kept() {
     assert!((2.0 * middle.half_width() - (2.0 * 0.125 + 0.2 * 0.375)).abs() < 1e-3, "{middle:?}");
 }
 
-/// Curves that no one sees, and what other programs write beside curves.
+/// Colours may be indexed, and `primvars:widths` goes before `widths`. Prims that no one sees, and
+/// what other programs write beside curves, are passed over.
 #[test]
 fn a_stage_is_read_as_its_program_meant_it() {
     let curve = "int[] curveVertexCounts = [2, 2]\nuniform token type = \"linear\"\npoint3f[] points = [(0,0,0), (1,0,0), (0,1,0), \
@@ -278,7 +279,7 @@ fn a_stage_is_read_as_its_program_meant_it() {
     ] {
         assert_eq!(read(&(stage(curve) + other)).unwrap().points().len(), 4, "{other}");
     }
-    // Letters of names.
+    // A name may have escaped letters.
     let named = stage(curve).replace("\"c\"", "\"c\" ( displayName = \"a\\tb\\x41\\\\ \\\"\" )");
     assert_eq!(read(&named).unwrap().materials()[0].name, "a\tbA\\ \"");
 }

@@ -234,7 +234,8 @@ fn a_loom_has_what_is_set_up_on_it() {
         let [warning] = &warnings[..] else { panic!("{warnings:?}") };
         parts.iter().for_each(|part| assert!(warning.contains(part), "{warning}"));
     };
-    // Ends on shafts, and rows of the tie-up, beyond the stated counts give a warning.
+    // There is a warning if ends are on more shafts than are stated, or if the tie-up has rows for
+    // more treadles than are stated.
     warned(&TWILL.replace("Shafts=4", "Shafts=2"), &["[WEAVING] Shafts is 2", "[THREADING] goes up to 4"]);
     warned(&TWILL.replace("Treadles=4", "Treadles=2"), &["[WEAVING] Treadles is 2", "[TIEUP] goes up to 4"]);
     assert_eq!(drawdown(&TWILL.replace("Shafts=4", "Shafts=2")), TWILL_DRAWDOWN);
@@ -271,7 +272,7 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     };
     let both = ("Spacing=.212\nThickness=.212", "Spacing=.212\nThickness=.2115");
     let design = stated(both.0, both.1, "");
-    // All threads get half the spacing, up to the rounding of the file's thickness.
+    // The diameter of all threads becomes half the spacing.
     let [warp, weft] = diameters(&design);
     assert!(
         warp.iter().chain(&weft).all(|diameter| (diameter / 1.06 - 1.0).abs() < 5e-3),
@@ -299,8 +300,8 @@ fn threads_as_thick_as_they_are_spaced_get_room_to_cross() {
     near(&diameters(&stated("Spacing=.2\nThickness=.19", "Spacing=.3\nThickness=.19", ""))[0], &[1.9]);
 }
 
-/// Cloths of four tie-ups, with unequal spacings beside one another, are clear once texere has made
-/// their threads thinner.
+/// Cloths of four tie-ups, with equal and unequal spacings, are clear if texere chooses the
+/// diameters, because a draft states no thickness or one that equals the spacing.
 #[test]
 fn what_is_given_room_does_not_pierce() {
     let tie_ups = [
@@ -365,8 +366,8 @@ fn thick_and_thin_drafts_keep_their_thick_threads() {
     }
 }
 
-/// Columns of ends are 1 mm and 2 mm wide in turn, as in thick-and-thin drafts. Each is 1.5 mm from
-/// both neighbours.
+/// Columns of ends are 1 mm and 2 mm wide in turn, as in thick-and-thin drafts. Each end lies
+/// 1.5 mm from the next.
 #[test]
 fn threads_lie_in_the_middle_of_their_columns() {
     let own = "[WARP SPACING]\n2=0.2\n4=0.2\n[WARP THICKNESS]\n2=0.12\n4=0.12\n";
@@ -380,7 +381,8 @@ fn threads_lie_in_the_middle_of_their_columns() {
     assert!(woven.warnings().is_empty());
 }
 
-/// The file with a comment after every value of every section. The title keeps its semicolon.
+/// A draft with a comment after every value and every section's name is read like the draft without
+/// comments. A title keeps its semicolon.
 #[test]
 fn a_semicolon_behind_any_value_begins_a_comment() {
     let full = TWILL.to_owned()
@@ -426,7 +428,7 @@ fn a_loom_without_treadles_is_woven_by_its_lift_plan() {
     // Without a lift plan the treadles of the tie-up are used, as if too few were declared.
     assert_eq!(drawdown(&none), TWILL_DRAWDOWN);
     assert!(read_text(&none).unwrap().warnings()[0].contains("Treadles is 0, but [TIEUP] goes up to 4"));
-    // Shafts are counted in the same way. There are none if no end is on one.
+    // If too few shafts are declared, the loom has those on which ends are threaded.
     let shafts = TWILL.replace("Shafts=4", "Shafts=0");
     assert_eq!(drawdown(&shafts), TWILL_DRAWDOWN);
     assert!(read_text(&shafts).unwrap().warnings()[0].contains("Shafts is 0, but [THREADING] goes up to 4"));

@@ -103,7 +103,8 @@ fn assert_tube(read: &[Read], mesh: &[Vertex], attributes: &[Attribute], sides: 
             assert_eq!(read.yarn, attribute.yarn as f32);
             let turn = if corner == sides { 1.0 } else { attribute.angle / TAU };
             assert!((read.uv[0] - turn).abs() < 1e-6, "{} turns instead of {turn}", read.uv[0]);
-            // The file has the way from middle to middle, which is shorter than the spline.
+            // The file has the sum of the distances between the middles of rings, which is less
+            // than the length of the spline.
             let (mm, along) = (read.uv[1], attribute.along);
             assert!(mm <= along * 1.0001 + 1e-4 && mm >= 0.9 * along - 1e-4, "{mm} mm instead of {along}");
             assert_eq!(read.sign, -1.0);
@@ -112,7 +113,8 @@ fn assert_tube(read: &[Read], mesh: &[Vertex], attributes: &[Attribute], sides: 
             let on_surface = (tangent - exact * exact.dot(tangent)).normalize();
             let off = on_surface.distance(read.tangent.normalize());
             assert!(off <= accuracy, "a tangent is off by {off} rad");
-            // The bitangent leads to the next corner. Corners of a lobed yarn may point back.
+            // The bitangent leads to the next corner. On a lobed yarn the bitangent may point away
+            // from the next corner.
             let next = place(&mesh[ring * sides + (corner + 1) % sides]) - place(&mesh[own]);
             let ahead = (exact.cross(read.tangent) * read.sign).dot(next);
             assert!(ahead > 0.0 || attribute.yarn == LOBED);
@@ -120,8 +122,8 @@ fn assert_tube(read: &[Read], mesh: &[Vertex], attributes: &[Attribute], sides: 
     }
 }
 
-/// Checks the vertices of a cap: texture coordinates and places are alike to a rotation and a
-/// scale.
+/// Checks the vertices of a cap: texture coordinates and places are alike, except for a rotation
+/// and a scale.
 fn assert_cap(read: &[Read], mesh: &[Vertex], yarn: u32) {
     let middle = mesh.iter().map(place).sum::<Vec3>() / mesh.len() as f32;
     for (read, vertex) in read.iter().zip(mesh) {

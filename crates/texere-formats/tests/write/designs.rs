@@ -39,9 +39,8 @@ pub(crate) fn as_toml(design: &Design) -> (Design, Vec<String>, String) {
     again(design, "a.toml", |design, path| write::toml(design, path))
 }
 
-/// A thread's sizes, stiffness, twist and hairiness, its section, colour and tex. They are looked
-/// up, because the tables of two cloths may be in different order. The spacing and the material's
-/// name are not among them.
+/// A thread's properties except the spacing and the material's name. Section and material are
+/// looked up, because the tables of two cloths may be in different order.
 fn thread<'a>(cloth: &'a Woven, thread: &Thread) -> ([u32; 8], &'a Section, [u8; 3], Option<f32>) {
     let Thread { radius_mm, flatness, stiffness, firmness, least_area, twist, .. } = *thread;
     let material = &cloth.materials()[thread.material as usize];
@@ -310,8 +309,8 @@ fn many_kinds_of_picks_take_a_lift_plan() {
 
 #[test]
 fn threads_as_thick_as_their_spacing_stay_so() {
-    // If the same text names another program as its source, texere takes thicknesses that equal
-    // spacings for widths of drawing, and makes the threads thinner.
+    // If the text names another program as its source, thicknesses that equal spacings are taken
+    // for the widths at which that program draws threads. The threads are then made thinner.
     let cloth = small(Weave::parse("plain").unwrap().drawdown(4, 4).unwrap(), Thread::new(0.2, 0.1));
     let (read, _, text) = as_wif(&design(cloth));
     assert_eq!(woven(&read).cloth().warp()[0].radius_mm, 0.1);
@@ -324,7 +323,7 @@ fn threads_as_thick_as_their_spacing_stay_so() {
 #[test]
 fn sizes_that_no_unit_holds_to_the_bit_have_the_same_text_again() {
     // No unit writes more than one of these three spacings to the bit, so decipoints are taken,
-    // which need the fewest digits. After they are read, all sizes are exact in centimetres too,
+    // which need the fewest digits. The sizes that are then read are exact in centimetres, too,
     // with as many digits. Centimetres are tried first, so a writer that looked at the given sizes
     // alone would change the unit the second time.
     let sizes = [(819.4922889486355, 214.85893), (10.0 / 12.0, 305.75195), (232.13929242082267, 159.15794)];

@@ -20,7 +20,8 @@ struct Triangle {
     corners: [[[f32; 3]; 2]; 3],
 }
 
-/// A GLB file, and its document, of which the gltf crate passes over what it does not know.
+/// A GLB file, and its JSON document. The document is kept because the gltf crate leaves out
+/// extensions that it does not know.
 struct File {
     gltf: Gltf,
     json: Value,
@@ -176,7 +177,7 @@ fn placed(design: &str) -> Yarns {
 }
 
 /// Threads of a plain weave recur every second pick or end, and loops of a jersey with each wale.
-/// Two repeats of the weave and of the knit have as many different parts as one.
+/// A larger weave or knit has hardly more different parts than a smaller one.
 #[test]
 fn parts_that_recur_are_held_once() {
     let weave = |threads: usize| {
@@ -223,8 +224,8 @@ fn parts_that_differ_a_little_are_held_each() {
     assert!(held[1] > held[0] && held[2] > held[0], "{held:?}");
 }
 
-/// Far from the origin floats lie 0.008 mm apart. Ends that differ in thickness by ten times that
-/// are two parts nevertheless.
+/// Far from the origin, neighbouring numbers of type `f32` lie 0.008 mm apart. Ends that differ in
+/// thickness by ten times that are two parts nevertheless.
 #[test]
 fn parts_far_away_are_held_each() {
     let mut yarns = Yarns::builder();

@@ -37,7 +37,8 @@ fn a_chart_is_drawn_as_it_was_written() {
 #[test]
 fn the_back_shows_each_stitch_from_behind_the_last_wale_first() {
     assert_eq!(rows("kkkkk\npkkkt\nkkkkk", Beds::One, Side::Back), "ppppp\nupppk\nppppp");
-    // A yarn that goes to the right on the front goes to the left as seen from the back.
+    // The half of a cable that goes to the right in front goes to the left, and behind, as seen
+    // from the back.
     assert_eq!(rows("kkkkk\nRRrkk", Beds::One, Side::Back), "ppppp\nppRrr");
 }
 

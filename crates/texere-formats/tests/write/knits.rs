@@ -105,7 +105,7 @@ fn what_a_format_does_not_hold_says_which_one_does() {
     );
     refused(write::knitout_to(&woven, sink()), "a knitout file can't hold woven cloth");
     refused(write::wif_to(&chart, sink()), "a WIF draft can't hold a weft knit");
-    // A knit that a program made itself, and a design whose knit was replaced.
+    // A knit that was not read from a file, and designs whose knit was replaced.
     let made = Chart::parse("kk", Default::default()).unwrap().program().unwrap();
     let made = Machine::default().knit(&made).unwrap().stitches;
     let (yarns, materials) = (vec![KnitYarn::new(0.1)], vec![Material::default()]);
@@ -227,8 +227,8 @@ fn faults_of_letters_are_named() {
     }
 }
 
-/// Stripes of which a shorter list of yarns would give other courses, names that need care in
-/// lists, and numbers of wales that only inches give to the bit.
+/// Stripes whose list of yarns can't be shortened without changing the number of courses, names
+/// that need care in lists, and numbers of wales that only inches give to the bit.
 #[test]
 fn charts_with_stripes_and_odd_names() {
     for (chart, yarns, close) in [

@@ -138,8 +138,8 @@ fn a_region_is_read_back() {
     }
 }
 
-/// A texture goes once round each yarn, without a jump on any triangle, and as far along it as the
-/// yarn's rings lie apart.
+/// A texture goes once round each yarn, without a jump on any triangle. Along the yarn, its
+/// coordinate grows by the distance between rings.
 #[test]
 fn texture_coordinates_follow_the_yarn() {
     let yarns = long_yarn();
@@ -154,7 +154,8 @@ fn texture_coordinates_follow_the_yarn() {
         let corners = face.corners.map(|[vertex, at, _]| (place(vertex), file.coordinates[at]));
         for (one, other) in [(0, 1), (1, 2), (2, 0)] {
             let [(here, [turn, along]), (there, [other_turn, other_along])] = [corners[one], corners[other]];
-            // Half a turn at most between the corners of any triangle of three sides or more.
+            // Corners of a triangle are less than half a turn apart, because a tube has three sides
+            // or more.
             assert!((turn - other_turn).abs() < 0.5, "{turn} and {other_turn}");
             // On the inside of a bend, corners lie nearer than the middles of rings.
             assert!((along - other_along).abs() <= here.distance(there) + 0.4);
@@ -168,8 +169,8 @@ fn texture_coordinates_follow_the_yarn() {
     assert!(furthest > 0.9 * length && furthest <= 1.001 * length, "{furthest} of {length} mm");
 }
 
-/// Neither the mesh nor its materials replace a file that has to stay, and without one there is
-/// none of the other.
+/// Neither the mesh file nor the file of its materials replaces a file that has to stay. If one of
+/// the two can't be written, the other isn't either.
 #[test]
 fn both_files_are_spared() {
     let folder = tempfile::tempdir().unwrap();

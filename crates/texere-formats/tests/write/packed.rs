@@ -24,7 +24,7 @@ fn written(mesh: &Mesh, format: Format) -> Gltf {
     Gltf::from_slice_without_validation(&bytes.into_inner()).unwrap()
 }
 
-/// Whether the three numbers of each vertex are of `kind`.
+/// Checks that the three numbers of each vertex are of `kind`, and whether they are normalized.
 fn assert_kind(accessor: &Accessor<'_>, kind: DataType, normalized: bool) {
     assert_eq!((accessor.data_type(), accessor.normalized()), (kind, normalized));
 }

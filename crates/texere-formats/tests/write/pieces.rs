@@ -52,8 +52,8 @@ fn ply_triangles(bytes: &[u8]) -> (usize, impl Iterator<Item = [usize; 3]>) {
     let text = std::str::from_utf8(&bytes[..end]).unwrap();
     let number = |element: &str| text.split(element).nth(1).unwrap().lines().next().unwrap().parse().unwrap();
     let (vertices, triangles): (usize, usize) = (number("element vertex "), number("element face "));
-    // A vertex has six floats and three bytes. A triangle has a byte and three numbers.
-    // With attributes it has six floats and a number more.
+    // A vertex has six floats and three bytes. With attributes a vertex has five floats and a
+    // number more. A triangle has a byte and three numbers.
     let vertex_bytes = if text.contains("yarn") { 51 } else { 27 };
     let faces = bytes[end + vertices * vertex_bytes..].chunks_exact(13);
     assert_eq!((faces.len(), faces.remainder().len()), (triangles, 0));

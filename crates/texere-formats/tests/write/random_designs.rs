@@ -28,9 +28,9 @@ const NAMES: [&str; 12] = [
     "Wolle, grün [é]",
 ];
 
-/// Numbers from the least to below the most. They are drawn from 0, which is a multiple of every
-/// unit. proptest 1.12 may fail an assertion of its own if the lower bound has finer digits than
-/// the upper one.
+/// Numbers from `least` to below `most`. They are drawn from the range that begins at 0, and
+/// smaller ones become `least`. proptest 1.12 may fail an assertion of its own if the lower bound
+/// has finer digits than the upper one.
 fn numbers(least: f32, most: f32) -> impl Strategy<Value = f32> {
     (0.0..most).prop_map(move |number| number.max(least))
 }
@@ -171,8 +171,7 @@ fn design() -> impl Strategy<Value = Design> {
     )
 }
 
-/// Whether files can hold the design: relief may have made threads thinner or flatter than files
-/// allow.
+/// Whether files can hold the design: relief may have made threads thinner than files allow.
 fn is_held(design: &Design) -> bool {
     let cloth = design.structure.woven().unwrap().cloth();
     let thickness = |thread: &Thread| (1e-3..=1e3).contains(&(2.0 * f64::from(thread.radius_mm)));

@@ -30,7 +30,7 @@ pub(crate) fn facets(bytes: &[u8]) -> Vec<Facet> {
     bytes[84..].chunks_exact(50).map(facet).collect()
 }
 
-/// The places of the corners of each triangle, in any order.
+/// The places of the corners of each triangle. The triangles are sorted.
 fn places(facets: &[Facet]) -> Vec<[[u32; 3]; 3]> {
     let mut all: Vec<_> =
         facets.iter().map(|facet| facet.corners.map(|corner| corner.map(f32::to_bits))).collect();
@@ -77,8 +77,9 @@ fn a_region_is_read_back() {
     }
 }
 
-/// Normals have length 1 and stand on their facets, by the right hand about the corners. Capped
-/// tubes are solids: each edge is used once in each direction, and the solids have a volume.
+/// Normals have length 1 and stand upright on their facets, on the side that the right-hand rule
+/// gives for the order of the corners. Capped tubes are solids: each edge is used as often in one
+/// direction as in the other, and the solids together have a positive volume.
 #[test]
 fn capped_tubes_are_solids() {
     let mesh = whole(&fabric(), true);

@@ -24,7 +24,8 @@ pub(crate) struct Prim {
     interpolation: BTreeMap<String, String>,
 }
 
-/// The prims of a stage by their paths. Each begins with a line `def Mesh` of four spaces.
+/// The prims of a stage by their paths. Each begins with a line `def Mesh`, indented by four
+/// spaces.
 pub(crate) fn prims(stage: &str) -> BTreeMap<String, Prim> {
     let (head, prims) = stage.split_once("    def Mesh ").unwrap();
     assert!(head.starts_with("#usda 1.0\n(\n    defaultPrim = \"cloth\"\n") && head.ends_with("\n{\n"));

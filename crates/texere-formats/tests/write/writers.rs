@@ -10,7 +10,7 @@ use texere_formats::write::{self, Format, Side};
 
 use crate::fabric::{TINY, fabric, pipeline, ways, whole};
 
-/// Bytes before and behind the file in the writer. Neither may change.
+/// The bytes before the file in the writer. They must not change.
 const BEFORE: &[u8] = b"what an archive has before it";
 
 /// The bytes that `write` writes to a writer that stands after `BEFORE` and holds old bytes beyond
@@ -88,7 +88,7 @@ fn pictures_have_the_bytes_of_their_files() {
     }
 }
 
-/// A writer that refuses after this many bytes, or only when it is flushed.
+/// A writer that takes `room` bytes and refuses any more. It also refuses to be flushed.
 struct Full {
     room: usize,
 }

@@ -216,8 +216,8 @@ fn memory_grows_with_the_file_alone() {
             HEAP.reset_peak_usage();
             let read = yarns_from("cloth.yarns", &bytes);
             let taken = HEAP.peak_usage().saturating_sub(before);
-            // The file has three kilobytes. The larger limit leaves room for tests that run at the
-            // same time.
+            // The file has less than two kilobytes. The larger limit leaves room for tests that run
+            // at the same time.
             assert!(taken < 1 << 26, "{claim} at byte {at} takes {taken} bytes: {read:?}");
         }
     }

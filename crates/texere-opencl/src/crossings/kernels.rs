@@ -37,9 +37,10 @@ impl CrossingsKernels {
         let value = [Arg::Value(bytes_of(params))];
         let Memory { threads, sites, crossings, found, next, group_rows, pass_rows } = memory;
         let args = [&value[..], &in_memory([threads, sites, found, crossings, next, group_rows])].concat();
-        // SAFETY: the arguments are those of `crossings_move`. A lane reads the rows of both its
-        // threads, its `CrossingSite` and its crossing, and the same of the crossings near it
-        // that are in the plan. It writes its crossing in both buffers, and a group writes its row.
+        // SAFETY: the arguments are those of `crossings_move`. A lane reads the rows of threads,
+        // the sites and the lies of its crossing and of the crossings near it that are in the plan.
+        // It writes the lies of its own crossing in `crossings` and `next`, and a group writes its
+        // row.
         unsafe { start(&mut self.step, opened, &args, params.crossings) }?;
         let args = [&value[..], &in_memory([group_rows, pass_rows])].concat();
         // SAFETY: the arguments are those of `crossings_seen`. The only group reads the rows of all

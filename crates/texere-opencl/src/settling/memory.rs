@@ -21,7 +21,7 @@ pub(super) struct Memory {
     pub(super) chord_rows: Buffer,
     pub(super) places: Buffer,
     /// The places that the last pass measured, before it moved them. The next pass writes its
-    /// places here, and then both buffers change their roles.
+    /// places here, and then `places` and `seen` change their roles.
     pub(super) seen: Buffer,
     /// The places of the best pass so far.
     pub(super) kept: Buffer,

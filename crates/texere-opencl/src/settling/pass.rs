@@ -57,7 +57,7 @@ impl PassKernels {
         let args = [&value[..], &in_memory([places, place_rows, chord_rows, chords])].concat();
         // SAFETY: the arguments are those of `settling_chords`. A lane reads its chord's row, the
         // rows of its interval and of the next place, and the interval's four places, and writes
-        // its chord. There is room for all of the plan's.
+        // its chord. There is room for all chords of the plan.
         unsafe { start(&mut self.chords, opened, &args, params.chords) }
     }
 
@@ -78,7 +78,8 @@ impl PassKernels {
         let [pull, step] = if form == Form::Block { &mut self.block } else { &mut self.weighted };
         // SAFETY: the arguments are those of the pull kernels of both forms. A lane reads its
         // interval's places, rows and chords, the neighbours that were listed for the chords, and
-        // the same of each neighbour. It writes its planes, and a group writes its row.
+        // each neighbour with the places and rows of its interval. It writes its planes, and a
+        // group writes its row.
         unsafe { start(pull, opened, &args, params.places) }?;
         let tables = in_memory([places, place_rows, strands, pulls, steps, lengths, next, rows]);
         let args = [&value[..], &tables].concat();

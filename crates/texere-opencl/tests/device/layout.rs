@@ -1,6 +1,6 @@
-//! Tests that a kernel reads each value that Rust writes into a table by the right name: the name
-//! of the field, or the component or number that stands for the field. The kernels are compiled and
-//! run on the device.
+//! Tests that kernels find each value of Rust's tables under the right name: the name of the field,
+//! or the component or number that stands for the field. The kernels are compiled and run on the
+//! device.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,

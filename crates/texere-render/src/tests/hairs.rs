@@ -154,8 +154,8 @@ fn hairs_are_as_long_as_their_yarn_says() {
     let size = [(LENGTH as f32 + 6.0) * PER_MM, (YARNS as f32 * APART) * PER_MM].map(|pixels| pixels as u32);
     let renderer = renderer().lock().unwrap();
     let extent = Extent::of(&yarns(0.0));
-    // Hairs stand off in the same way all round. Directions that lie evenly between that across the
-    // yarns and that along them therefore stand for all directions.
+    // Hairs stand off in the same way all round. Directions in even steps, from across the yarns to
+    // along them, therefore stand for all directions.
     let cameras: Vec<_> = (0..VIEWS)
         .map(|view| {
             let cosine = (view as f32 + 0.5) / VIEWS as f32;

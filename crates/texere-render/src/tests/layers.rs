@@ -7,7 +7,8 @@ use crate::Layers;
 
 const RADIUS: f32 = 0.5;
 
-/// A yarn along x from 1 to 9 mm at y = 2 and z = 3, with four rings a millimetre.
+/// Two yarns. Yarn 1 lies along x from 1 to 9 mm at y = 2 and z = 3, with four rings a millimetre.
+/// Yarn 0 is out of sight.
 fn straight() -> Yarns {
     let mut yarns = Yarns::builder();
     let other = [[0.0, -20.0, 0.0], [1.0, -20.0, 0.0]].map(|[x, y, z]| ControlPoint::new(x, y, z, RADIUS));
@@ -39,7 +40,8 @@ fn layers_of(yarns: &Yarns, camera: impl FnOnce(&Extent) -> Camera, supersamplin
 
 #[test]
 fn a_straight_yarn_has_the_layers_of_a_cylinder() {
-    // 101 samples to the row with a supersampling of 1: no multiple of what copies are aligned to.
+    // With a supersampling of 1 a row has 101 samples of 20 bytes. That is no multiple of the 8
+    // bytes to which copies are aligned.
     for (supersampling, size) in [(1, [101, 30]), (3, [20, 16])] {
         let yarns = straight();
         let look = |extent: &Extent| {
@@ -59,7 +61,7 @@ fn a_straight_yarn_has_the_layers_of_a_cylinder() {
                 continue;
             }
             assert_eq!(*yarn, 1);
-            // Near the outline depth and normal change fast within a pixel.
+            // At the outline of the yarn, depth and normal change fast within a pixel.
             if y.abs() > 0.8 * RADIUS {
                 continue;
             }
@@ -76,7 +78,8 @@ fn a_straight_yarn_has_the_layers_of_a_cylinder() {
             (0..3).for_each(|axis| near(layers.normal[number][axis], normal[axis], 0.15));
             (0..3).for_each(|axis| near(layers.tangent[number][axis], [1.0, 0.0, 0.0][axis], 1e-3));
             near(layers.uv[number][1], 4.0 * (sight.origin[0] as f32 - 1.0), 0.7);
-            // The side of an upright section at the first corner is z × t, which is +y.
+            // The angle counts from the first corner. In an upright section it lies towards z × t,
+            // where t is the yarn's direction: towards +y.
             let angle = z.atan2(y).rem_euclid(TAU);
             near((layers.uv[number][0] - angle + PI).rem_euclid(TAU), PI, 0.3);
         }

@@ -118,8 +118,8 @@ pub(super) struct Judgement {
     pub(super) pictures: [RgbImage; 2],
 }
 
-/// Judges the picture of a fabric of one chunk. Its samples lie where the device has them, from
-/// whatever distance it is seen.
+/// Judges the picture of a fabric of one chunk. The picture's samples lie where the device's
+/// rasteriser has them, from whatever distance the fabric is seen.
 pub(super) fn judge(scene: &mut Scene, camera: &Camera) -> Judgement {
     scene.look(camera, Quality { supersampling: 1, ..Quality::default() }).unwrap();
     let mut view = ViewUniform::new(camera, Background::Ground, 1, false);

@@ -16,8 +16,8 @@ const SIZE: usize = 96;
 /// beat by at least five times as much.
 const SEEN: f64 = 4.0;
 
-/// The distance, in waves over the picture, at which waves can be distinguished. The window's main
-/// lobe reaches two waves each way.
+/// The distance, in waves over the picture, at which waves can be distinguished. The main lobe of
+/// Von Hann's window, with which [`strangest`] fades the picture, reaches two waves each way.
 const APART: f64 = 3.0;
 
 /// A weave: its repeat, and a function that tells whether an end lies above a pick.
@@ -58,12 +58,12 @@ fn waves_of(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     (0..line.len()).map(wave).collect()
 }
 
-/// The greatest wave of a picture that can't be a wave of the cloth, levels of 255, and its number
-/// of periods over the picture each way.
+/// The greatest wave of a picture among those that the cloth can't have: its height in levels of
+/// 255, and its number of periods over the picture each way.
 ///
-/// A picture of `pitch` pixels from thread to thread has waves of the cloth at multiples of one
-/// over its repeat, each way. The neighbourhood of each of these waves that pixels can show is left
-/// out. No other waves may be in the picture.
+/// In a picture of `pitch` pixels from thread to thread, the cloth has waves of a whole number of
+/// periods for `repeat` threads, each way. The neighbourhood of each of these waves that pixels can
+/// show is left out. No other waves may be in the picture.
 fn strangest(grey: &[f64], pitch: f64, repeat: usize) -> (f64, [f64; 2]) {
     let mean = grey.iter().sum::<f64>() / grey.len() as f64;
     // Von Hann's window fades the picture at its edges, which would otherwise be waves themselves

@@ -14,8 +14,8 @@ use crate::opened::Opened;
 use crate::parameters::PARAMETERS;
 
 impl WgpuSettler {
-    /// Writes all control points, padded as `plan` says, to `points`, if that buffer belongs to the
-    /// same open device and fits one binding. Returns whether the points were written.
+    /// Writes all control points, padded as `plan` says, to `points`. Returns whether they were
+    /// written: `points` must belong to the settler's own open device, and fit one binding.
     pub(crate) fn write_points(
         &self,
         opened: &Arc<Opened>,

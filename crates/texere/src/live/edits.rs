@@ -30,8 +30,8 @@ impl Live {
     }
 
     /// Sets whether the warp is up at a crossing. `end` and `pick` are counted from 0. Errors count
-    /// them from 1, as weavers do. Both threads then lie as they are woven, even if they were
-    /// [set](Live::set_yarn) before.
+    /// them from 1, as weavers do. If the lift changes, both threads then lie as they are woven,
+    /// even if they were [set](Live::set_yarn) before.
     ///
     /// **Errors**: [`LiveError::NotWoven`], [`LiveError::Fabric`] for a crossing outside the cloth,
     /// [`LiveError::Session`] of the device, and the errors of [`Live::yarns`] and [`Live::given`]
@@ -173,8 +173,8 @@ impl Live {
 
     /// Replaces all yarns by those of the same fabric at rest, and keeps the weave. Threads whose
     /// lifts are set later lie as they are woven, among the yarns at rest, until the next call.
-    /// Yarns that do not change are not made again. If sections do, because plies have pressed into
-    /// one another, a new mesh is begun.
+    /// Yarns that do not change are not made again. If sections change, because plies have pressed
+    /// into one another, a new mesh is begun.
     ///
     /// ```
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

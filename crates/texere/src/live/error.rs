@@ -10,8 +10,8 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LiveError {
-    /// A lift was set in a fabric without a weave: a knit, or a fabric whose yarns were given or
-    /// set.
+    /// A lift was set in a fabric without a weave: a knit, or a fabric whose yarns were
+    /// [given](crate::Live::given) or all [replaced](crate::Live::set_yarns).
     #[error(
         "there is no weave to lift in: the fabric is not woven, or is known by its yarns alone since they were set"
     )]

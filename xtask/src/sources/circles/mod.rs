@@ -122,8 +122,8 @@ mod tests {
         }
     }
 
-    /// A module that defines an item which its inner modules name is part of a circle. A module
-    /// that only re-exports the item is not.
+    /// A module is part of a circle if it names an item of an inner module, and the inner module
+    /// names an item that it defines. A module that only re-exports or imports is not.
     #[test]
     fn what_only_passes_on_is_no_part() {
         let passes_on = "mod a;\nmod b;\nuse a::A;\npub use b::B;";

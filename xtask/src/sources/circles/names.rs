@@ -89,9 +89,9 @@ impl Crate {
         if !found.is_empty() {
             return found;
         }
-        // A name that the module has itself hides those that a `*` brings in. If such a name is
-        // found, the search ends here and follows no `*`. Otherwise the search for the path before
-        // a `*` would go through every `*` again.
+        // A name that the module has itself hides those that a `*` brings in, so the search ends
+        // above if there is such a name. The path before a `*` is looked up by this function, too.
+        // If its first name did not end the search, each look-up would follow every `*` again.
         for used in module.uses.iter().filter(|used| used.name == "*") {
             for (meaning, _) in self.meanings(number, &used.path, left) {
                 if let Meaning::Module(all) = meaning {

@@ -8,7 +8,7 @@ use super::{Operation, settings};
 use crate::caller::Caller;
 use crate::common::sized;
 
-/// The number of one of few things, or a number that is too high.
+/// The number of a fault or a warning: a low number, or one that is too high.
 fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 0, 1, u64::MAX])
 }

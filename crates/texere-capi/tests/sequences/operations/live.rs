@@ -1,4 +1,4 @@
-//! Operations that edit live cloth.
+//! Operations that make, read and edit live cloth.
 
 use std::ptr::null;
 
@@ -15,7 +15,7 @@ fn number(caller: &mut Caller<'_>) -> u64 {
     caller.random.pick(&[0, 0, 1, 1, 2, u64::MAX])
 }
 
-/// Control points of a yarn: a few more than it has, or too few for a yarn.
+/// Two to 60 random control points, or none, which is too few for a yarn.
 fn points(caller: &mut Caller<'_>) -> Vec<texere_point> {
     let count = caller.random.pick(&[0, 2, 5, 9, 60]);
     let point = |number| {

@@ -42,7 +42,7 @@ pub(crate) struct Operation {
     pub(crate) weight: usize,
     /// Whether the function can fail.
     pub(crate) fails: bool,
-    /// Whether it needs a GPU, which few sequences have.
+    /// Whether the function needs a GPU. Only the sequences of the trial `gpu` call such functions.
     pub(crate) on_gpu: bool,
     pub(crate) call: fn(&mut Caller<'_>) -> texere_status,
 }
@@ -60,7 +60,7 @@ pub(crate) const DESIGNS: [&str; 4] = [
     "weave = { notation = \"plain\", ends = 2, picks = -2 }\n",
 ];
 
-/// Names of files in the test's folder. Other operations write files of the later kinds.
+/// Names of files in the test's folder. Some operations write these files, and others read them.
 const FILES: [&str; 10] =
     ["a.toml", "a.wif", "a.k", "a.yarns", "a.usda", "a.ply", "a.glb", "a.png", "none", "folder/a.toml"];
 

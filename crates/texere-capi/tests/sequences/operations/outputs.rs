@@ -1,4 +1,4 @@
-//! Operations on outputs of a plan other than its mesh, and operations on sessions.
+//! Operations on sessions, and on a plan's chunks, rings, arrays, streams and files for callbacks.
 
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};

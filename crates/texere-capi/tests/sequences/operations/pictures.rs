@@ -51,7 +51,7 @@ pub(super) fn operations() -> Vec<Operation> {
         };
         texere_renderer_show, 5, |caller| {
             let (renderer, yarns, run) = (caller.handle(), caller.handle(), caller.handle_or_null());
-            // Settings of a wrong size are wrong only where they are given.
+            // Random settings may have a wrong size, so they are drawn only if the call gets them.
             if caller.random.one_in(2) {
                 return texere_renderer_show(renderer, yarns, null(), run);
             }

@@ -7,7 +7,7 @@ use texere_c::*;
 use super::Operation;
 use crate::caller::{Caller, Text};
 
-/// Random materials and sections, which `looks` refers to.
+/// Random materials and sections, which the `texere_looks` of `given` points to.
 struct Looks {
     name: Text,
     materials: Vec<texere_material>,
@@ -72,8 +72,8 @@ fn knit_yarn(caller: &mut Caller<'_>) -> texere_knit_yarn {
     texere_knit_yarn { diameter_mm, twist: 0.5, material: 0, section: 0, reserved: 0 }
 }
 
-/// Lists of a draft: `count` of them, of one number each or of none to three, counted from 1 to
-/// `most` or sometimes higher. `kept` holds the arrays.
+/// `count` lists of a draft. Either each list has one number, or each has none to three. Numbers go
+/// from 0 to `most`, and are sometimes higher. `kept` holds the arrays.
 fn lists(caller: &mut Caller<'_>, kept: &mut Kept, count: usize, most: u32) -> texere_lists {
     let is_single = caller.random.one_in(2);
     let mut offsets = vec![0_u64];

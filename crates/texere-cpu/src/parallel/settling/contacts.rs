@@ -269,7 +269,7 @@ impl Touches {
     ) {
         let Contacts { at: [u, v], way, distance } = *contact;
         let velocities = [curves[0].velocity(simd, u), curves[1].velocity(simd, v)];
-        // `Contact::direction` of the core.
+        // `Approach::direction` of the core.
         let [a, b] = velocities;
         let square = [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
         let way = select(simd.splat(ONE_PLACE).less(distance), way, square);

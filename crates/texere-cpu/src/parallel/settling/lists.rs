@@ -190,8 +190,8 @@ impl Job for MiddleJob<'_> {
             let own = Chords::<S>::new(simd, chords, &numbers);
             let length = dot(own.span, own.span).sqrt();
             longest = longest.max(length);
-            // The reach of a chord is half of the distance that `are_neighbours` allows, and half
-            // its own length. A thousandth and one unit are added, which is more than rounding
+            // The reach of a chord is its share of the distance that `are_neighbours` allows, and
+            // half its own length. A thousandth and one unit are added, which is more than rounding
             // takes away.
             let reach = simd.splat(MARGIN * growth) * own.thickest + simd.splat(0.5 * SKIN * spans.diameter);
             let reach = (reach + simd.splat(0.5) * length) * simd.splat(1.001) + simd.splat(unit);

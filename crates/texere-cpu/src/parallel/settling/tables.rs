@@ -73,8 +73,8 @@ pub(super) struct PullRow {
     /// length, mm.
     pub(super) length: [f32; 4],
     /// Four measures: the least distance to another stretch of yarn, mm; the least ratio of such a
-    /// distance to the sum of both reaches; the least radius of curvature, in diameters; the share
-    /// by which the length is off.
+    /// distance to the sum of both reaches, the distances from the centrelines to the surfaces; the
+    /// least radius of curvature, in diameters; the share by which the length is off.
     pub(super) seen: [f32; 4],
 }
 

@@ -179,8 +179,9 @@ impl Knitter<'_> {
         for &(_, _, wale) in &moves {
             self.transfer(wale as i32, Bed::Front, wale as i32, self.source(course, wale));
         }
-        // Moves to the right come before moves to the left. If two loops come to one needle, the
-        // one from the left therefore comes first.
+        // Loops that lie in front are moved before loops that lie behind. In each group, moves to
+        // the right come before moves to the left. If two loops of one group come to one needle,
+        // the one from the left therefore comes first.
         moves.sort_by_key(|&(behind, by, wale)| (behind, -by, wale));
         let mut racked = 0;
         for (_, by, wale) in moves {

@@ -36,8 +36,8 @@ fn courses_go_to_and_fro() {
     assert_eq!(carriers, [1, 2, 3, 1, 2, 3]);
 }
 
-/// Every row of up to four of these parts is written as it was read. Some parts next to one another
-/// have cells in common: a loop of `>` moves as the left half of `Rr` does.
+/// Every row of up to four of the listed parts is written as it was read. Cells of different parts
+/// may be alike: the loop of `>` moves as the left half of `Rr` does.
 #[test]
 fn symbols_are_written_as_they_were_read() {
     let parts = ["k", "t", "<", ">", "Rr", "lL", "RRr", "Rrr", "llL", "lLL", "RRRrr"];

@@ -175,8 +175,8 @@ impl Carriers {
         }
     }
 
-    /// Moves a carrier that has set off to a stitch, and adds the stitch to its yarn. Returns the
-    /// carrier whose yarn has caught the yarn of this carrier.
+    /// Moves a carrier to a stitch, and adds the stitch to its yarn. [`Carriers::set_off`] comes
+    /// first. Returns the carrier whose yarn has caught the yarn of this carrier.
     pub(super) fn lay(&mut self, carrier: u32, [set, pass]: [u32; 2], spot: Spot, step: Step) -> Option<u32> {
         let Spot { direction, at, row } = spot;
         let own = &mut self.carriers[carrier as usize];

@@ -64,7 +64,7 @@ impl Machine {
     ///     repeat: Some(1),
     /// };
     /// let stitches = Machine::default().knit(&program)?.stitches;
-    /// // The loop of the next round is drawn through it.
+    /// // The loop of the next round is drawn through the loop of this round.
     /// assert_eq!(stitches.loops[0].fate, Fate::Held(LoopRef { number: 0, repeat: [0, 1] }));
     /// # Ok::<(), texere_fabric::FabricError>(())
     /// ```

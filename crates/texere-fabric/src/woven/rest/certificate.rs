@@ -1,6 +1,6 @@
 //! The certificate: surfaces are measured as drawn, and threads are made thinner where they lack
-//! clearance or bend too tightly. A section keeps its least area: what it loses in one direction
-//! beyond that, it gains in the other.
+//! clearance or bend too tightly. A section keeps its least area: if thinning leaves less, its
+//! width and height grow in one ratio until it has this area again.
 
 use std::ops::ControlFlow;
 

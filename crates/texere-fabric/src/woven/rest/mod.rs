@@ -25,8 +25,8 @@ use self::resting::RestingRepeat;
 pub use self::stretch::Stretch;
 use crate::{BySet, FabricError, Finish, FinishError, Woven};
 
-/// The share at which crossings have settled, of the progress of crossings and surfaces. In the
-/// rest of it surfaces are measured, and threads made thinner.
+/// The share of the progress of settling and thinning at which crossings have settled. In the rest
+/// of this progress, surfaces are measured and threads are made thinner.
 const SETTLED: f64 = 0.5;
 /// The share of all progress at which threads have been made thinner.
 const CERTIFIED: f64 = 0.95;
@@ -94,10 +94,10 @@ impl Woven {
     /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
     /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
     /// clearance. The plies of threads press into one another ([`WovenRest::valley`]). `tension` is
-    /// the tension of the yarns' splines, from 0 to below 1. A thread's given
-    /// [flatness](crate::Thread::flatness) does not count, nor do [`Woven::crimp`] and
-    /// [`Woven::shape`]. `progress` gets the share of the work done. `Break` ends the call with
-    /// [`FabricError::Cancelled`].
+    /// the tension of the yarns' splines, from 0 to below 1. A thread with a larger
+    /// [flatness](crate::Thread::flatness) comes to rest flatter. [`Woven::crimp`] and
+    /// [`Woven::shape`] do not count. `progress` gets the share of the work done. `Break` ends the
+    /// call with [`FabricError::Cancelled`].
     ///
     /// **Errors**: [`FinishError::Woven`] if `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a

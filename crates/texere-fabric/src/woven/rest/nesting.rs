@@ -15,8 +15,8 @@ use super::resting::{BEYOND, Of, Placing};
 /// beside it. With half the value, and with twice, no test is red.
 const ROUNDS: usize = 8;
 
-/// The share of the distance that two threads need, of which a lack is left. With half the value,
-/// and with twice, no test is red.
+/// Two threads are pushed only if they lack more than this share of the distance that they need.
+/// With half the value, and with twice, no test is red.
 const LACKING: f64 = 1e-3;
 
 impl Placing<'_> {
@@ -76,7 +76,8 @@ impl Placing<'_> {
     }
 }
 
-/// How far a thread reaches upwards from its middle, along another thread of this slope.
+/// How far above the middle of a thread a line passes that has the slope of the crossing thread and
+/// just touches the thread.
 fn reach(lie: &ThreadState, slope: f64) -> f64 {
     (f64::from(lie.half_width) * slope).hypot(f64::from(lie.half_height))
 }

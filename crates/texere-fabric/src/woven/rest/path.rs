@@ -5,10 +5,10 @@ use texere_core::crossings::StraightPassage;
 use super::ease::ease;
 use super::stop::{CHANGE_POINTS, Stop};
 
-/// Place of a float's control point beside a change of sides, in steps of as many as the change has
-/// from crossing to crossing. With this point the steps of the spline grow slowly, so that the
-/// spline does not swing out. With half the value,
-/// `woven_cloth_at_rest_has_the_same_numbers_small_and_large` is red; with twice,
+/// Distance of a float's control point from a crossing beside a change of sides, in steps. A step
+/// is here the way from crossing to crossing, divided by the number of steps of a change of sides.
+/// With this point the steps of the spline grow slowly, so that the spline does not swing out. With
+/// half the value, `woven_cloth_at_rest_has_the_same_numbers_small_and_large` is red; with twice,
 /// `turns_of_uneven_picks_do_not_touch`.
 const FLOAT_STEP: f64 = 1.8;
 

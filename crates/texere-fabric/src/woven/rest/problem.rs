@@ -22,9 +22,10 @@ pub(super) struct Problem {
     pub(super) least: [Vec<f32>; 2],
 }
 
-/// The area that sections keep while crossings settle, as a multiple of their least area. The rest
-/// is left for clearance of the surfaces as they are drawn. 0.98 to 1.03 were tried. With 1 and
-/// with 1.02, denim ends a hundredth short of its clearance (`cloths_of_the_mills_come_to_rest`).
+/// The area that sections keep while crossings settle, as a multiple of their least area. The
+/// hundredth above the least area is left for clearance of the surfaces as they are drawn. 0.98 to
+/// 1.03 were tried. With 1 and with 1.02, denim ends a hundredth short of its clearance
+/// (`cloths_of_the_mills_come_to_rest`).
 const RESERVE: f32 = 1.01;
 
 /// The fewest threads of either set in a problem.

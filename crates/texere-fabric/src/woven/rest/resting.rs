@@ -18,8 +18,8 @@ use crate::woven::selvedge;
 use crate::woven::yarns::{Pass, Pen};
 use crate::{BySet, FabricError, NO_CROSSING, POINTS_MAX, Thread, Woven, WovenError};
 
-/// The share of its area below which a section has lost area by more than the accuracy of a
-/// settling. No other value was tried.
+/// A section has lost area if it keeps less than this share of its area. Smaller losses are within
+/// the accuracy of a settling. No other value was tried.
 const LOST: f32 = 0.99;
 
 /// The area of a section up to which the section counts as solid, as a multiple of its least area.
@@ -36,9 +36,9 @@ pub(super) struct RestingRepeat {
     rooms: [Vec<[f32; 2]>; 2],
     /// The least product of half width and half height of each thread's room, mm².
     least: [Vec<f32>; 2],
-    /// Which threads lie on top where an end and a pick of different layers cross: those of the
-    /// crossing's higher layer. `Equal` where both are of one layer, or where warp and weft have
-    /// different numbers of levels.
+    /// For each crossing, whether the layer of the end is higher (`Greater`) or lower (`Less`) than
+    /// that of the pick. `Equal` where both are of one layer, or where warp and weft have different
+    /// numbers of levels.
     layers: Vec<Ordering>,
     /// Number of control points between two crossings if a thread changes sides between them.
     change_points: usize,
@@ -60,7 +60,8 @@ impl RestingRepeat {
             let rows = plan.rows(set).iter().zip(&problem.least[set as usize]);
             rows.map(|(row, least)| least * (row.radius * plan.unit()).powi(2)).collect::<Vec<f32>>()
         });
-        // Penalties give way a little. Sections that lack area get it back.
+        // The penalty for less than the least area gives way a little while crossings settle.
+        // Sections that lack area get it back.
         for (number, at) in rest.iter_mut().enumerate() {
             let site = plan.site(number);
             for set in Set::BOTH {

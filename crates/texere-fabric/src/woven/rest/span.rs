@@ -11,7 +11,8 @@ pub(super) struct Span {
     one: Station,
     two: Station,
     /// The crossings between the two, which the thread passes without a bend, and how far it is
-    /// pushed up at each, mm. If the thread stays on its side, its heights are those of its way.
+    /// pushed up at each, mm. If the thread stays on its side, the `z` of each of these stations
+    /// lies on the straight line between `one` and `two`, plus the push.
     passed: Vec<(Station, f64)>,
     /// Number of control points of a change of sides.
     points: usize,

@@ -36,9 +36,9 @@ const WAYS: usize = BENDS + 2 * BESIDE;
 const SMOOTHINGS: usize = 2;
 
 /// The radius of the bends before they are smoothed, as a multiple of the yarn's half width. The
-/// spline's tightest bend has 0.71 of it or more, whatever the distance of picks. With 1.35 bends
-/// of the tested cloths are wide enough, too, but with less to spare. With 1.2 `turns_do_not_fold`
-/// fails.
+/// spline's tightest bend has 0.71 of this radius or more, whatever the distance of picks. With
+/// 1.35, the bends of the tested cloths are wide enough, too, but with less to spare. With 1.2,
+/// `turns_do_not_fold` fails.
 const WIDE: f64 = 1.45;
 
 /// The largest distance of the yarn's middle from the middle between both picks, as a multiple of
@@ -57,7 +57,7 @@ pub(super) struct Turn {
     outwards: f64,
     /// Where the first way begins and the last one ends, mm.
     edge: f64,
-    /// The directions of all ways from the direction outwards, radians.
+    /// The angle of each way to the direction outwards, radians.
     directions: [f64; WAYS],
     /// The length of a way, mm.
     way: f64,

@@ -61,7 +61,7 @@ pub(super) fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<
     }
 }
 
-/// The drawing that a chart was read from: a chart or an image.
+/// What a chart was read from: the text of a design file, or an image.
 pub(super) struct Drawing<'a> {
     pub(super) file: &'a Path,
     pub(super) legend: Legend,

@@ -20,7 +20,8 @@ const COTTON_COUNT: [f64; 2] = [0.01, 10_000.0];
 /// The least and the greatest density of a yarn, the air in it included, g/cm³.
 const DENSITY: [f64; 2] = [0.05, 20.0];
 
-/// The least and the greatest least area of a yarn's section.
+/// The smallest and the largest value of `least_area`: the area that a yarn's section keeps at rest
+/// at least, as a share of the area of the round yarn.
 const LEAST_AREA: [f64; 2] = [0.0, 1.0];
 
 /// The deepest and the shallowest valley between two plies.

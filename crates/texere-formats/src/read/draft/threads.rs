@@ -13,14 +13,15 @@ use crate::read::threads::only_used;
 const DEFAULT_SPACING_MM: f64 = 1.0;
 
 /// The least distance of neighbouring threads in units of Peirce's least pitch, if the file does
-/// not state how thick threads are and all are equal and evenly spaced. It is 2/√3, which is what
-/// threads have whose diameter is half their spacing. The test `what_is_given_room_does_not_pierce`
-/// shows that threads so far apart are clear of one another.
+/// not state how thick threads are and all are equal and evenly spaced. The value is 2/√3, the
+/// distance in these units of threads whose diameter is half their spacing. The test
+/// `what_is_given_room_does_not_pierce` shows that threads so far apart are clear of one another.
 const ROOM: f64 = 1.154_700_538_379_251_5;
 
-/// The least distance of neighbouring threads in the same units, if threads are uneven in spacing
-/// or thickness. It keeps threads clear beside gaps of up to twelve times their pitch, and beside
-/// threads of a twelfth of their diameter, as `what_is_given_room_does_not_pierce` tests.
+/// The least distance of neighbouring threads in units of Peirce's least pitch, if the file does
+/// not state how thick threads are and they are uneven in spacing or thickness. This distance keeps
+/// threads clear beside gaps of up to twelve times their pitch, and beside threads of a twelfth of
+/// their diameter, as `what_is_given_room_does_not_pierce` tests.
 const ROOM_UNEVEN: f64 = 1.85;
 
 /// The share by which threads may lie closer than [`ROOM`] or [`ROOM_UNEVEN`] asks without becoming

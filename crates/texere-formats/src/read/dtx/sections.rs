@@ -31,7 +31,8 @@ const START: &str = "startdtx";
 pub(super) struct Row<'a> {
     /// The line of the file, counted from 1.
     pub(super) line: usize,
-    /// The text without space around it. It is never empty.
+    /// The text without space around it, and without the `%%` of a setting. Only the text of a
+    /// setting may be empty.
     pub(super) text: &'a str,
     /// The number of letters before the text, in the line.
     indent: usize,
@@ -41,7 +42,7 @@ pub(super) struct Row<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Word<'a> {
     row: Row<'a>,
-    /// The first byte in the row.
+    /// The place of the word's first byte in the row's text.
     at: usize,
     pub(super) text: &'a str,
 }
@@ -78,7 +79,7 @@ impl<'a> Row<'a> {
         parts.filter(|word| !word.text.is_empty())
     }
 
-    /// The digits of the row, which may only be 0 and 1, and whether each is 1.
+    /// Whether each digit of the row is 1. Digits may only be 0 and 1.
     pub(super) fn digits(self, file: &Path) -> impl Iterator<Item = Result<bool, ReadError>> {
         self.text.char_indices().map(move |(at, digit)| match digit {
             '0' => Ok(false),
@@ -219,8 +220,8 @@ impl<'a> Sections<'a> {
         Ok(numbers)
     }
 
-    /// Refuses `word`, the next entry of a list of `count`, if the list has one for each of as many
-    /// threads as a cloth may have.
+    /// Refuses `word`, the next entry of a list, if the `count` entries before it are already as
+    /// many as a cloth may have threads.
     pub(super) fn room_for_one(&self, count: usize, word: Word<'_>) -> Result<(), ReadError> {
         if count < THREADS_MAX as usize {
             return Ok(());

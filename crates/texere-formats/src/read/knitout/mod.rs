@@ -2,7 +2,7 @@
 //! v0.6).
 //!
 //! The reader is strict about what is knitted and lenient about how a file is written. It refuses,
-//! with line and column, an unknown operation, a word that does not belong there, and a carrier
+//! with line and column, an unknown operation, a word that is wrong at its place, and a carrier
 //! that the header does not list. It accepts departures from the standard whose meaning is clear,
 //! and warns of each kind once. Examples are a first line that is not `;!knitout-2`, a missing list
 //! of carriers (the carriers are then those that occur), unknown headers and extensions, stitch

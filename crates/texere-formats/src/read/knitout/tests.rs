@@ -331,8 +331,8 @@ fn hostile_bytes_are_read_or_refused() {
         .map(|number| format!("knit + f1 {} {}\nx-{number}\n", number % 250, (number + 1) % 250))
         .collect();
     let knitout = read(format!("{names}{sets}")).unwrap();
-    // Reading them takes time in proportion to their number, because each name and each set is
-    // looked up in a table.
+    // The time that reading takes is in proportion to the number of lines, because each name and
+    // each set is looked up in a table.
     assert_eq!((knitout.program.carriers.len(), knitout.program.carrier_sets.len()), (250, 251));
     assert_eq!(knitout.warnings.len(), WARNINGS_MAX + 1);
 }

@@ -1,8 +1,8 @@
-//! Reads yarns of TexGen (`.tg3`, XML): those of the University of Nottingham's geometric modeller
-//! of textiles.
+//! Reads yarns of TexGen, the University of Nottingham's geometric modeller of textiles (`.tg3`,
+//! XML).
 //!
-//! Each `Yarn` of the file becomes one yarn: once, and whole. Repeats and the domain, which say how
-//! often TexGen draws it and where it cuts it off, are passed over.
+//! Each `Yarn` of the file becomes one yarn: once, and whole. Repeats, which say how often TexGen
+//! draws a yarn, are passed over. So is the domain, which says where TexGen cuts yarns off.
 
 mod path;
 mod section;
@@ -27,7 +27,7 @@ use super::spline::{Curve, Cut, Shape, cut_at, cuts, tension};
 const UNITS_MM: [(&str, f64); 6] =
     [("mm", 1.0), ("cm", 10.0), ("m", 1e3), ("km", 1e6), ("um", 1e-3), ("nm", 1e-6)];
 
-/// Where the height of a section points without an up direction.
+/// The direction of a section's height if the file gives no up direction.
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// Reads the yarns of all textiles of a file.
@@ -105,7 +105,8 @@ impl Thread {
         let is_closed = yarn.how.periodic
             && nodes.len() > 3
             && nodes.first().map(|node| node.position) == nodes.last().map(|node| node.position);
-        // Paths are judged by the thinnest part of the yarn.
+        // How far a spline may run beside the path is a share of the radius. The radius is taken
+        // from the thinnest part of the yarn.
         let halves = yarn.outlines.iter().flat_map(|(_, outline)| outline.halves);
         let whole = pieces(nodes, yarn.how, halves.fold(f64::INFINITY, f64::min));
         let (mut parts, mut spans) = (Vec::new(), Vec::new());
@@ -129,8 +130,8 @@ impl Thread {
         Self { yarn, curve, spans }
     }
 
-    /// The section of the yarn, in units of half its width and half its height. If sections have
-    /// several shapes, all are ellipses.
+    /// The section of the yarn. The control points give its width and its height. If the yarn has
+    /// sections of several shapes, all of them are read as ellipses.
     fn section(&self) -> Section {
         let outlines = &self.yarn.outlines;
         let first = &outlines[0].1;
@@ -201,7 +202,7 @@ fn yarns(file: &Path, threads: &[Thread]) -> Result<Yarns, ReadError> {
 #[derive(Debug, Default)]
 struct Sections {
     all: Vec<Section>,
-    /// The number of each section, by all that it says, and half its width and half its height.
+    /// For each section, written as text: its number, and half its width and half its height.
     numbers: HashMap<String, (u32, [f64; 2])>,
 }
 

@@ -8,9 +8,10 @@ use crate::read::spline::Place;
 /// How a yarn goes from node to node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
-    /// Bézier curves, whose handles are a third of the way between two nodes.
+    /// Bézier curves. A handle is a third as long as the way between two nodes, times the length of
+    /// the tangent.
     Bezier,
-    /// The cubic spline whose second derivative goes on at every node.
+    /// The cubic spline whose second derivative is continuous at every node.
     Cubic,
     /// Straight lines.
     Linear,
@@ -54,7 +55,7 @@ pub(super) fn unit(vector: Vector) -> Vector {
     if length > 0.0 { vector.map(|axis| axis / length) } else { [0.0; 3] }
 }
 
-/// The Bézier curves of a path of two nodes or more, with the radius that places get.
+/// The Bézier curves of a path of two nodes or more. All their places get the `radius`.
 pub(super) fn pieces(nodes: &[Node], how: Interpolation, radius: f64) -> Vec<[Place; 4]> {
     let handles = match how.form {
         Form::Bezier => bezier(nodes, how),
@@ -76,8 +77,8 @@ fn thirds(pair: &[Node]) -> Vector {
     each(|axis| (pair[1].position[axis] - pair[0].position[axis]) / 3.0)
 }
 
-/// The handles from each node, and to the next. They lie along the tangents, which are parallel to
-/// the way between a node's neighbours.
+/// The handles from each node, and to the next. They lie along the tangents. A node that gives no
+/// tangent has one that is parallel to the way between its neighbours.
 fn bezier(nodes: &[Node], how: Interpolation) -> Vec<[Vector; 2]> {
     let last = nodes.len() - 1;
     let tangent = |number: usize| {
@@ -132,14 +133,15 @@ fn natural_derivatives(steps: &[f64]) -> Vec<f64> {
 /// The derivatives, at each of its knots, of a periodic cubic spline whose knots are `steps` apart.
 ///
 /// The first equation also names the last derivative, and the last equation the first one. A second
-/// solution takes both parts out (Sherman and Morrison, 1950).
+/// solution accounts for these two terms (Sherman and Morrison, 1950).
 fn periodic_derivatives(steps: &[f64]) -> Vec<f64> {
-    // With fewer than three knots they name the same derivatives twice. The spline is the same if
-    // its period is taken three times.
+    // With fewer than three knots, an equation would name one derivative more than once. The spline
+    // does not change if its period is taken three times.
     let all = if steps.len() < 3 { steps.repeat(3) } else { steps.to_vec() };
     let count = all.len();
     let right = |knot: usize| 3.0 * (all[knot] + all[(knot + count - 1) % count]);
-    // The matrix is this one plus the column and the row of which each has 1 at both ends.
+    // The matrix of the equations is the one with this diagonal plus the product of a column and a
+    // row. The column and the row have 1 at both ends, and 0 between.
     let diagonal = |knot: usize| if knot == 0 || knot == count - 1 { 3.0 } else { 4.0 };
     let plain = solved(count, diagonal, right);
     let beside = solved(count, diagonal, |knot| if knot == 0 || knot == count - 1 { 1.0 } else { 0.0 });

@@ -49,10 +49,11 @@ impl<'a> Xml<'a> {
         Ok(Self { file, text, reader, depth: 0 })
     }
 
-    /// The next element within the element whose start tag or whose last child has just been read,
-    /// or none where that element ends, or the file does.
+    /// The next element within the current one: the element whose start tag, or whose last child,
+    /// has just been read. None at the end of the current element, and at the end of the file.
     ///
-    /// **Errors**: [`ReadError::Syntax`] for what is no XML.
+    /// **Errors**: [`ReadError::Syntax`] for what is no XML; [`ReadError::Word`] for a file that
+    /// ends within an element.
     pub(super) fn child(&mut self) -> Result<Option<Element<'a>>, ReadError> {
         loop {
             let at = self.reader.buffer_position() as usize;
@@ -102,7 +103,8 @@ impl<'a> Xml<'a> {
 
     /// The value of an attribute of `element`, or none if it has none of that name.
     pub(super) fn value(&self, element: &Element<'a>, name: &str) -> Result<Option<Value<'a>>, ReadError> {
-        // A check for doubled attributes compares each with all others.
+        // The check for doubled attributes is off, because it compares each attribute with all
+        // others.
         let mut attributes = element.tag.attributes();
         for attribute in attributes.with_checks(false) {
             let attribute = attribute.map_err(|error| {

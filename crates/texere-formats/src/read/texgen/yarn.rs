@@ -81,7 +81,7 @@ fn interpolation<'a>(xml: &Xml<'a>, element: &Element<'a>) -> Result<Interpolati
             return Err(xml.unfit(kind, expected));
         }
     };
-    // TexGen takes these where a file does not say them.
+    // `usual` is the value that TexGen takes if the file does not state one.
     let flag = |name, usual: f64| Ok::<_, ReadError>(xml.numbers(element, name)?.unwrap_or([usual]) != [0.0]);
     let (periodic, in_plane) = (flag("Periodic", 1.0)?, flag("ForceMasterNodeTangent", 0.0)?);
     Ok(Interpolation { form, periodic, in_plane })

@@ -1,7 +1,8 @@
 //! Reads curves of Universal Scene Description, in its text form: yarns that other programs made.
 //!
-//! The file is read in two steps. [`stage`](stage::stage) takes what it says of prims, in any
-//! order. Then the curves of each prim become yarns, where the prims that it is in place it.
+//! The file is read in two steps. First, [`stage`](stage::stage) reads the prims, whose properties
+//! may come in any order. Then the curves of each prim become yarns. The transforms of the prim and
+//! of the prims that it is in place them.
 
 mod curve;
 mod place;
@@ -88,7 +89,7 @@ struct World<'a> {
     matrix: DMat4,
     /// An operation that can't be taken, and what was expected.
     fault: Option<(Token<'a>, &'static str)>,
-    /// Whether the prim and all that it is in are there.
+    /// Whether the prim and all prims that it is in are to be read.
     is_there: bool,
     /// Whether the prim is a PointInstancer, or in one.
     is_instanced: bool,
@@ -109,8 +110,8 @@ impl<'a> World<'a> {
     }
 }
 
-/// From a prim's coordinates to mm, with z up. None if the coordinates are that already, which
-/// keeps their bits.
+/// The matrix from a prim's coordinates to mm, with z up. None if the coordinates are in mm with z
+/// up already. They then keep their bits.
 fn millimetres(stage: &Stage<'_>, world: DMat4, scale: CurveScale) -> Option<DMat4> {
     let unit = scale.unit_mm.map_or(stage.unit_m * 1000.0, f64::from);
     // These are turns by 90 degrees, so no curve is mirrored.
@@ -188,7 +189,7 @@ impl Cloth {
     }
 }
 
-/// The curves of a prim that is there.
+/// The curves of a prim that is to be read.
 struct Reader<'a> {
     tokens: &'a Tokens<'a>,
     prim: &'a Prim<'a>,
@@ -344,7 +345,8 @@ enum Widths {
 }
 
 impl Widths {
-    /// The width at a vertex of a curve. Those that vary along the curve come later.
+    /// The width at a vertex of a curve. It is 0 if widths vary along the curve: `Curve::new` sets
+    /// them afterwards.
     fn at(&self, curve: usize, vertex: usize) -> f64 {
         match self {
             Self::One(width) => *width,

@@ -14,9 +14,9 @@ use crate::read::ReadError;
 /// Operations of a prim.
 #[derive(Debug, Default)]
 pub(super) struct Place<'a> {
-    /// The operations by their names. None is one that can't be read.
+    /// The operations by their names. `None` stands for an operation that can't be read.
     operations: BTreeMap<&'a str, Option<DMat4>>,
-    /// The names of those that count, the last of which acts first.
+    /// The names of the operations that count. The last one acts first.
     order: Vec<Token<'a>>,
 }
 

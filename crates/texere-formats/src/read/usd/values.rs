@@ -43,7 +43,7 @@ impl<'a> Tokens<'a> {
         number.filter(|_| token.kind == Kind::Word).ok_or_else(|| self.refused(token, "a number"))
     }
 
-    /// A number of things, or the number of one.
+    /// A whole number from 0: a count or an index.
     pub(super) fn count(&mut self) -> Result<u32, ReadError> {
         let token = self.next()?;
         let number = token.text.parse().ok().filter(|_| token.kind == Kind::Word);

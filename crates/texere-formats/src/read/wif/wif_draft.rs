@@ -51,7 +51,8 @@ fn missing(ini: &Ini<'_>, section: &'static str, needed_for: &'static str) -> Re
 }
 
 /// The plans of the file: a threading, and a tie-up with a treadling, or else a lift plan. If a
-/// file has all three, the tie-up and the treadling are used.
+/// file has a lift plan beside the tie-up and the treadling, the lift plan is used only if
+/// `[WEAVING]` says that the loom has no treadles.
 fn plans(ini: &Ini<'_>, ends: u32, picks: u32, warnings: &mut Vec<String>) -> Result<Plans, ReadError> {
     if !ini.has("threading") {
         return Err(missing(ini, "THREADING", "it says which shaft each end is on"));

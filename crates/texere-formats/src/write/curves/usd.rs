@@ -1,11 +1,13 @@
 //! The text form of Universal Scene Description. The open yarns of each material are one prim of
 //! curves, and its closed yarns another one.
 //!
-//! A spline of tension 0 is written as a Catmull-Rom curve. A nonperiodic one has a vertex beyond
-//! each of its ends, and is drawn between them. Blender passes over the wrap, and draws the curve
-//! through all vertices. The first and the last point are therefore written twice, which both take
-//! for the same curve. Its first and its last interval are shaped by these points, and run up to
-//! 0.08 of their length beside the yarn's, mostly along it. A closed yarn has the wrap `periodic`.
+//! A spline of tension 0 is written as a Catmull-Rom curve. By the specification, a nonperiodic
+//! curve has a vertex beyond each of its ends, and is drawn from end to end. Blender passes over
+//! the wrap, and draws the curve through all vertices. The yarn's first and last point are
+//! therefore written twice, so that Blender draws nearly the same curve as readers that follow the
+//! specification. The doubled points also shape the first and the last interval of the curve. There
+//! the curve is off from the yarn's spline by up to 0.08 of the interval's length, mostly along the
+//! yarn. A closed yarn has the wrap `periodic`.
 //!
 //! A spline of any other tension is written as Bézier curves of the same shape. A closed one ends
 //! where it begins.
@@ -102,7 +104,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The yarn's points as the file has them. An open Catmull-Rom curve has its first and its last
-    /// one twice. A closed curve without a wrap has its first one again at its end.
+    /// point twice. A closed curve of another basis has its first point again at its end.
     fn knots(self) -> impl Iterator<Item = &'a ControlPoint> {
         let is_spline = self.basis == Basis::CatmullRom;
         let before = self.points.first().filter(|_| is_spline && !self.closed);

@@ -112,7 +112,7 @@ impl<'a> KnitoutFile<'a> {
         text.put("\n")
     }
 
-    /// A rack as the machine of the file writes it.
+    /// A rack as a knitout file for the program's machine writes it.
     fn rack(&self, rack: f64) -> f64 {
         let whole = rack.floor();
         let is_half = rack != whole;

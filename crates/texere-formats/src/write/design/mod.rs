@@ -47,7 +47,7 @@ use super::{Output, WriteError};
 use crate::Design;
 
 /// Writes a woven design as a WIF 1.1 draft. Returns the parts that the file leaves out, each by
-/// its key in a design file.
+/// its key in a design file or in words.
 ///
 /// The draft is the design's own, if it weaves the cloth. If not, the draft has one shaft for each
 /// kind of end, and a tie-up if at most a hundred shafts and a hundred treadles are needed, else a
@@ -96,18 +96,20 @@ pub fn wif_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErro
 /// Writes a design as texere's own design file, which needs no other file beside it. Returns the
 /// parts that the file leaves out, each by its key or its name.
 ///
-/// Reading the file gives an equal design. Of woven cloth these are its drawdown, its threads with
-/// sizes, spacings, colours, sections and twist, the shape of the cloth, and its finish. The
-/// weaver's draft is left out; WIF files hold it. A weft knit that came from a chart or a picture
-/// is written with a chart, which has letters for yarns if the picture is a Jacquard. A warp knit
-/// is written with its guide bars. Yarns are as thick as their compression has made them. Yarns
-/// that share a name get numbers behind it.
+/// Reading the file gives an equal design, apart from the parts that are left out. For woven cloth,
+/// the file holds the drawdown, the threads with sizes, spacings, colours, sections and twist, the
+/// shape of the cloth, and its finish. The weaver's draft is left out; WIF files hold it. A weft
+/// knit that came from a chart or a picture is written with a chart, which has letters for yarns if
+/// the picture is a Jacquard. A warp knit is written with its guide bars. The yarns of a knit are
+/// as thick as the key `compression` has made them. If yarns share a name, a number follows the
+/// name of each but the first.
 ///
 /// **Errors**: [`WriteError::NotEnding`] if `output` does not end in `.toml`,
-/// [`WriteError::Unheld`] for a weft knit that came from no chart, for a Jacquard bar, and for a
-/// section that design files can't hold, [`WriteError::OutOfRange`] for a value that no design file
-/// may have, [`WriteError::TextTooLarge`] beyond 16 MiB, of which each crossing of the drawdown's
-/// repeat, or each cell of the chart, takes a byte, [`WriteError::Spared`], [`WriteError::Io`].
+/// [`WriteError::Unheld`] for a weft knit that came from neither a chart nor a picture, for a
+/// Jacquard bar, and for a section that design files can't hold, [`WriteError::OutOfRange`] for a
+/// value that no design file may have, [`WriteError::TextTooLarge`] beyond 16 MiB,
+/// [`WriteError::Spared`], [`WriteError::Io`]. Each crossing of the drawdown's repeat, or each cell
+/// of the chart, takes a byte of the 16 MiB.
 ///
 /// ```
 /// use texere_core::{Material, Section};
@@ -143,7 +145,7 @@ pub fn toml_to(design: &Design, out: impl Write) -> Result<Vec<String>, WriteErr
 }
 
 /// Writes a weft knit as a program of a knitting machine, knitout 2. Returns the parts that the
-/// file leaves out, each by its key in a design file.
+/// file leaves out, each by its key in a design file or in words.
 ///
 /// The knit must have come from a knitout file. Reading the written file gives the same operations
 /// on the same needles, with the same racks, carriers and stitch sizes, and so the same stitches.

@@ -14,7 +14,8 @@ const FEW: usize = 6;
 const NEEDLES_TRIED: u32 = 100;
 
 /// The keys for the distances of wales and courses. Wales are counted by the cm, or by the inch if
-/// only that number has few digits, or is read again to the bit.
+/// only the number to the inch has few digits. If both numbers have many digits, wales are counted
+/// by the inch only if the number to the cm is not read again to the bit.
 pub(super) fn gauge(
     table: &str,
     gauge: &Gauge,
@@ -64,7 +65,7 @@ fn draw_in(wale_mm: f64) -> Option<String> {
     })
 }
 
-/// The key for the copies of a repeat, unless there is one.
+/// The key for the copies of a repeat, or none for a single copy.
 pub(super) fn repeat(table: &str, copies: [u32; 2]) -> Result<Option<String>, WriteError> {
     let [across, along] = copies;
     for copies in copies {

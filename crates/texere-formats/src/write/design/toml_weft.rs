@@ -119,8 +119,8 @@ fn all_letters() -> impl Iterator<Item = char> {
 }
 
 /// The shortest list of yarns that gives each course of a chart its yarn. A reader repeats the rows
-/// of the chart until their number is a multiple of the list's length, and has to get as many
-/// courses again.
+/// of the chart until their number is a multiple of the list's length. The number of rows must then
+/// be the number of the chart's courses.
 fn turn(chart: &Chart) -> Vec<u32> {
     let yarns: Vec<u32> = chart.yarns().collect();
     let (courses, rows) = (yarns.len(), chart.rows());

@@ -59,8 +59,8 @@ impl Yarns {
         Self::new(kinds, warp.len(), thread, cloth.materials(), cloth.sections(), |_| true)
     }
 
-    /// The yarns of a knit, each with a name of its own. `is_yarn` says whether a yarn may have a
-    /// name.
+    /// The yarns of a knit, each with a name of its own. `is_yarn` says whether a text may be the
+    /// name of a yarn.
     pub(super) fn of_knit(
         yarns: &[KnitYarn],
         materials: &[Material],
@@ -150,7 +150,7 @@ impl Yarns {
 
 /// The names that have been given, each once.
 struct Names {
-    /// Whether a yarn may have a name.
+    /// Whether a text may be the name of a yarn.
     is_yarn: fn(&str) -> bool,
     taken: HashSet<String>,
     /// The last number that was tried behind each name.

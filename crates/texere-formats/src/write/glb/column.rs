@@ -10,13 +10,14 @@ use crate::write::corners::{Batch, Surface};
 /// A property of vertices, as accessors describe it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
-    /// The name by which primitives refer to it.
+    /// The name by which primitives refer to the property.
     pub(super) semantic: &'static str,
     /// Bytes of the property of one vertex, with padding: a multiple of four.
     pub(super) bytes: u64,
     /// The kind of numbers.
     pub(super) kind: u32,
-    /// Whether whole numbers stand for shares of 1. None for floats.
+    /// Whether whole numbers stand for shares of 1. None for floats, and for whole numbers that are
+    /// steps of a grid.
     pub(super) normalized: Option<bool>,
     pub(super) shape: &'static str,
     /// The filter of the compressed property.
@@ -28,7 +29,7 @@ pub(super) struct Column {
 /// A vertex with everything that a file may hold of it.
 #[derive(Debug)]
 pub(super) struct Corner<'a> {
-    /// If positions are packed, its position is in steps of the yarn's grid.
+    /// The vertex. If positions are packed, its position is in steps of the yarn's grid.
     pub(super) vertex: &'a Vertex,
     pub(super) surface: Surface,
     pub(super) yarn: u32,

@@ -30,8 +30,8 @@ const QUANTIZATION: &str = "KHR_mesh_quantization";
 #[derive(Debug)]
 pub(super) struct VertexForm {
     pub(super) columns: Vec<Column>,
-    /// The extension that compresses a buffer view of its own for each column. If there is none,
-    /// the columns of a vertex follow one another in a buffer view of all vertices.
+    /// The extension that compresses the columns, each in a buffer view of its own. Without an
+    /// extension, the columns of a vertex follow one another in a buffer view of all vertices.
     pub(super) compression: Option<Meshopt>,
 }
 

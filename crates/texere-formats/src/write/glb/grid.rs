@@ -42,7 +42,8 @@ impl Grid {
     /// **Errors**: [`WriteError::TooLongToPack`].
     pub(super) fn all(bounds: &Bounds) -> Result<Vec<Self>, WriteError> {
         let grid = |(yarn, [low, high]): (usize, &[[f32; 3]; 2])| {
-            // Each is halved before they are added, because their sum may be too large for a float.
+            // The ends of the box are halved before they are added, because their sum may be too
+            // large for a float.
             let middle = [0, 1, 2].map(|axis| 0.5 * low[axis] + 0.5 * high[axis]);
             let reach = |axis: usize| (high[axis] - middle[axis]).max(middle[axis] - low[axis]);
             let reach = reach(0).max(reach(1)).max(reach(2));
@@ -50,7 +51,7 @@ impl Grid {
                 let (length_mm, limit_mm) = (2.0 * reach, LENGTH_MOST_MM);
                 return Err(WriteError::TooLongToPack { yarn, length_mm, limit_mm });
             }
-            // The step is the scale of a node. Readers can't invert one of next to nothing.
+            // The step is the scale of a node. Readers can't invert a scale of next to nothing.
             let step = (reach / STEPS).max(STEP_LEAST_MM);
             Ok(Self { middle, step })
         };

@@ -32,7 +32,8 @@ const OFF: f32 = 1.0 / (1 << 20) as f32;
 /// file. A cloth of more than 5 m has parts that recur, but differ by more.
 const OFF_MOST_MM: f32 = 0.005;
 
-/// The largest coordinate of a cloth, mm. The difference of two coordinates is a float, too.
+/// The largest coordinate that a cloth may have, mm. The difference of two such coordinates is not
+/// too large for a float.
 const REACH_MOST_MM: f32 = f32::MAX / 4.0;
 
 /// An instanced GLB file that is being written. Its parts are kept until all vertices have come.
@@ -45,7 +46,7 @@ pub(in crate::write) struct InstancedGlbWriter<'a, W: Write + Seek> {
     parts: Parts,
     /// The rings of the part that is not complete yet.
     rings: Vec<Vertex>,
-    /// The number in its yarn of the last ring that has begun, and the yarn.
+    /// The last ring that has begun: its number within its yarn, and the yarn.
     last: (u32, u32),
     /// The vertices of the cap that is not complete yet.
     cap: Vec<Vertex>,
@@ -54,7 +55,7 @@ pub(in crate::write) struct InstancedGlbWriter<'a, W: Write + Seek> {
 impl<'a, W: Write + Seek> InstancedGlbWriter<'a, W> {
     /// Starts a file. It needs `bounds`, the boxes of all yarns.
     ///
-    /// **Errors**: [`WriteError::Unheld`] for coordinates whose differences are no floats.
+    /// **Errors**: [`WriteError::Unheld`] for coordinates whose differences may not fit a float.
     pub(in crate::write) fn start(
         target: Target<W>,
         plan: &'a Plan,
@@ -78,8 +79,8 @@ impl<'a, W: Write + Seek> InstancedGlbWriter<'a, W> {
         self.plan.settings().sides as usize
     }
 
-    /// Begins ring number `ring` of a yarn. `begins` if the ring does not go on from the ring
-    /// before.
+    /// Begins ring number `ring` of a yarn. `begins` says that the ring does not go on from the
+    /// ring before.
     fn ring(&mut self, yarn: u32, ring: u32, begins: bool) -> Result<(), WriteError> {
         let gaps = INTERVALS * (self.plan.settings().subdivisions + 1);
         let (sides, is_cut) = (self.sides(), self.last.0.is_multiple_of(gaps));
@@ -94,7 +95,8 @@ impl<'a, W: Write + Seek> InstancedGlbWriter<'a, W> {
         Ok(())
     }
 
-    /// Adds the rings that have come as a part. A single ring has no triangles.
+    /// Makes a part of the rings that have come, and adds it. A single ring makes no part, because
+    /// it has no triangles.
     fn complete(&mut self) -> Result<(), WriteError> {
         let rings = self.rings.len() / self.sides();
         if rings < 2 {

@@ -70,7 +70,7 @@ impl List {
         matches!(self, Self::Counts | Self::Corners)
     }
 
-    /// The number of the list's values of `number` triangles or vertices.
+    /// The number of values that the list has for `number` triangles or vertices.
     pub(super) const fn values(self, number: u64) -> u64 {
         if matches!(self, Self::Corners) { 3 * number } else { number }
     }
@@ -92,7 +92,7 @@ impl List {
     }
 
     /// Writes the list's values of the vertices of `batch`, of which the first is number `first` of
-    /// the prim. A list of triangles has none.
+    /// the prim. A list about triangles writes nothing.
     pub(super) fn vertices(self, text: &mut String, first: u64, batch: &Batch<'_>) {
         for ((vertex, surface), number) in batch.vertices.iter().zip(batch.surfaces()).zip(first..) {
             match self {
@@ -109,8 +109,8 @@ impl List {
     }
 
     /// Writes the list's values of the triangles of `corners`, of which the first is number `first`
-    /// of the prim. Each is `width` bytes long, with the break before it. Corners count from vertex
-    /// `base`. A list of vertices has none.
+    /// of the prim. Each value is `width` bytes long, with the break before it. Corners count from
+    /// vertex `base`. A list about vertices writes nothing.
     pub(super) fn triangles(self, text: &mut String, first: u64, base: u64, corners: &[u32], width: u64) {
         match self {
             Self::Counts => (first..).take(corners.len() / 3).for_each(|number| value(text, number, 3)),
@@ -125,7 +125,7 @@ impl List {
     }
 }
 
-/// A point or a direction, as long as any other.
+/// The text of a point or a direction. All such texts are equally long.
 pub(super) fn three([x, y, z]: [f32; 3]) -> String {
     format!("({x:15e}, {y:15e}, {z:15e})")
 }

@@ -18,11 +18,11 @@ pub(super) struct Prim {
     yarn: u32,
     /// The numbers in the mesh of the yarn's first vertex and of its first vertex of a cap.
     first: [u64; 2],
-    /// The numbers of the vertices of its tubes and of its caps.
+    /// How many vertices the yarn's tubes have, and how many its caps have.
     vertices: [u64; 2],
-    /// The numbers of the triangles of its tubes and of its caps.
+    /// How many triangles the yarn's tubes have, and how many its caps have.
     triangles: [u64; 2],
-    /// The number of the triangles of tubes, and of caps, that are written.
+    /// How many triangles of tubes, and how many of caps, have been written.
     written: [u64; 2],
     /// The least and the greatest coordinates of the vertices that have come, mm.
     pub(super) extent: [[f32; 3]; 2],
@@ -87,12 +87,12 @@ impl Prim {
         }
     }
 
-    /// The number of its vertices.
+    /// The number of the prim's vertices.
     pub(super) const fn vertices(&self) -> u64 {
         self.vertices[0] + self.vertices[1]
     }
 
-    /// The number of its triangles.
+    /// The number of the prim's triangles.
     pub(super) const fn triangles(&self) -> u64 {
         self.triangles[0] + self.triangles[1]
     }

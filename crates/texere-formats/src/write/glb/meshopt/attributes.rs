@@ -26,8 +26,8 @@ const NOTHING: u8 = 2;
 /// The control mode of a byte whose differences are written as they are.
 const LITERAL: u8 = 3;
 
-/// What differences are taken of. The number is that of the channel mode in the tail of a stream of
-/// version 1.
+/// What differences are taken of. The number of a variant is its channel mode in the tail of a
+/// stream of version 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::write::glb) enum Differences {
     /// Single bytes.
@@ -98,8 +98,8 @@ impl AttributeEncoder {
         out.write_all(&tail)
     }
 
-    /// Writes the elements that wait as a block. The bytes of all elements with one place in their
-    /// element follow one another.
+    /// Writes the elements that wait as a block. The differences of all elements at their first
+    /// byte come first, then those at their second byte, and so on.
     fn write_block(&mut self, out: &mut impl Write) -> io::Result<()> {
         let count = self.waiting.len() / self.stride;
         let mut all = Vec::with_capacity(self.waiting.len() + self.stride);
@@ -171,7 +171,8 @@ fn coded(groups: &[[u8; GROUP]], bits: [u32; 4]) -> Vec<u8> {
 /// Appends a group of differences to `bytes` with the number of bits, one of `all`, that takes the
 /// fewest bytes. Returns the place of that number in `all`.
 fn write_group(group: &[u8; GROUP], all: [u32; 4], bytes: &mut Vec<u8>) -> u8 {
-    // A difference that needs more bits is replaced by the largest number, and follows as a byte.
+    // A difference that is the largest number of these bits, or larger, is replaced by that number
+    // and follows as a byte.
     let beyond = |bits: u32| {
         let largest = u8::MAX >> (8 - bits);
         group.iter().filter(move |&&difference| difference >= largest)

@@ -80,7 +80,7 @@ proptest! {
         }
     }
 
-    /// Corners of a few numbers meet in every way; those of many numbers are written out.
+    /// Corners numbered below 60 meet in every way. Corners with arbitrary numbers are written out.
     #[test]
     fn triangles_are_decoded(
         corners in prop_oneof![
@@ -92,7 +92,7 @@ proptest! {
         assert_triangles(&corners);
     }
 
-    /// Most bands of triangles take a byte for each triangle.
+    /// A tube takes less than two bytes for each triangle, and 40 bytes besides.
     #[test]
     fn tubes_are_decoded(sides in 3..40_u32, gaps in 1..20_u32) {
         let quads = texere_core::definitions::index_pattern(sides);

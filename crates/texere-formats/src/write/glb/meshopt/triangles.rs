@@ -8,18 +8,18 @@ use super::zigzag;
 /// The number of edges that a code can name.
 const EDGES: usize = 15;
 
-/// The number of corners that the code of a triangle with a named edge can name. Their codes begin
-/// at 1, for the second newest.
+/// The number of newest corners among which the code of a triangle with a named edge names one. The
+/// newest corner has no code. The codes of the others are their ages, from 1 for the second newest.
 const CORNERS_BESIDE_EDGE: usize = 13;
 
 /// The number of corners that the code of a triangle without a named edge can name.
 const CORNERS_ALONE: usize = 14;
 
-/// The code of a new corner: one whose number is one more than the largest so far.
+/// The code of a new corner. New corners have the numbers 0, 1, 2 and so on, as they come.
 const NEW: u8 = 0;
-/// The code of a corner whose number is one less than the last number that was written out.
+/// The code of a corner whose number is one less than the encoder's `last` number.
 const ONE_LESS: u8 = 13;
-/// The code of a corner whose number is one more than the last number that was written out.
+/// The code of a corner whose number is one more than the encoder's `last` number.
 const ONE_MORE: u8 = 14;
 /// The code of a corner whose number is written out.
 const WRITTEN_OUT: u8 = 15;
@@ -32,7 +32,8 @@ pub(in crate::write::glb) struct TriangleEncoder {
     corners: Newest<u32>,
     /// The number of the next new corner.
     next: u32,
-    /// The last number that was written out, or that its neighbour's code named.
+    /// The number of the last corner with one of the codes [`ONE_LESS`], [`ONE_MORE`] and
+    /// [`WRITTEN_OUT`].
     last: u32,
 }
 
@@ -107,7 +108,7 @@ impl TriangleEncoder {
 
     /// The code of the corner of a triangle whose other two are those of a named edge.
     fn corner_beside_edge(&mut self, corner: u32) -> u8 {
-        // The newest corner lies on the named edge, so its code is free for new corners.
+        // The code 0 would name the newest corner, but stands for new corners.
         if let Some(age) = (1..CORNERS_BESIDE_EDGE).find(|&age| self.corners.aged(age) == corner) {
             return age as u8;
         }
@@ -136,8 +137,8 @@ impl TriangleEncoder {
         WRITTEN_OUT
     }
 
-    /// Writes the number of a corner as its difference from the last number that was written out,
-    /// seven bits a byte, the lowest first.
+    /// Writes the number of a corner as its difference from the `last` number, seven bits a byte,
+    /// the lowest first.
     fn write_out(&mut self, corner: u32, further: &mut impl Write) -> io::Result<()> {
         let mut left = zigzag(corner.wrapping_sub(self.last) as i32);
         self.last = corner;

@@ -13,7 +13,8 @@ use thiserror::Error;
 /// a face of the octahedron, where a step turns the normal most.
 const NORMAL: f64 = 6.6e-5;
 
-/// Further angle that is allowed on a GPU, rad, because its two kernels need not round alike.
+/// Further angle that is allowed unless results have to be exact, rad. A GPU makes the mesh with
+/// one kernel and packs vertices with another, and the two need not round alike.
 const NORMAL_NEAR: f64 = 1e-5;
 
 /// An error of packed vertices.

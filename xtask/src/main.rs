@@ -91,7 +91,7 @@ fn main() -> ExitCode {
             eprintln!("  python  builds the Python package, installs it in target/python and tests it");
             eprintln!("  sources  circles of files, long functions and wide comments");
             eprintln!(
-                "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel and has the suite find it"
+                "  mutate [KERNEL | FILE | BACKEND]  breaks a line of each kernel for meshes, and has the suite find it"
             );
             eprintln!(
                 "  instructions [record]  counts those of meshes and control points, against the baseline or to be it"

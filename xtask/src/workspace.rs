@@ -47,7 +47,7 @@ pub(crate) fn packages() -> Result<Vec<Package>, String> {
 fn package(value: &Value) -> Package {
     let is = |target: &Value, kind: &str| list(&target["kind"]).iter().any(|known| known == kind);
     let targets = list(&value["targets"]);
-    let linked = targets.iter().filter(|target| is(target, "lib") || is(target, "bin"));
+    let linked = targets.iter().filter(|target| ["lib", "cdylib", "bin"].iter().any(|kind| is(target, kind)));
     let tests = targets.iter().filter(|target| is(target, "test") && target["required-features"].is_null());
     let needed = list(&value["dependencies"]).iter();
     let needed = needed.filter(|needed| needed["path"].is_string() && needed["kind"] != "dev");

@@ -66,7 +66,7 @@ namespace Texere
             };
         }
 
-        /// <summary>Makes the attributes of the vertices in a span as long as <see cref="Vertices"/>.</summary>
+        /// <summary>Makes the attributes of all vertices in a span, whose length has to be <see cref="Vertices"/>.</summary>
         public void Attributes(Span<VertexAttribute> attributes, Run run = null)
         {
             fixed (VertexAttribute* first = attributes)

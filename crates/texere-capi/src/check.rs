@@ -182,7 +182,7 @@ fn faults(cloth: &Cloth, Diagnosis { faults, .. }: &Diagnosis) -> Vec<Fault> {
         all.push(Fault::new(TEXERE_FAULT_APART, pieces.count as f64, None, pieces.to_string()));
     }
     if let Some(ThreadDrawn { width, width_at, .. }) = &faults.wrung {
-        let words = format!("{width:.3} yarn radii half way between two rings");
+        let words = format!("half way between two rings the tube has {width:.3} of its width on them");
         all.push(Fault::at(TEXERE_FAULT_WRUNG, *width, width_at.as_ref(), words));
     }
     if let Some(ThreadDrawn { inwards, inwards_at, .. }) = &faults.inside_out {

@@ -82,7 +82,7 @@ impl Fail {
         let path = path.display();
         Self {
             code: USAGE,
-            source: format!("{option} is for files of curves, .bcc and .obj: {path} is another kind of file")
+            source: format!("{option} is for files of curves, such as .bcc, .obj, .usda and .tg3: {path} is another kind of file")
                 .into(),
         }
     }
@@ -184,7 +184,10 @@ fn own_code(error: &(dyn Error + 'static)) -> Option<u8> {
         | WriteError::TooLongToPack { .. }
         | WriteError::TooManyVertices { .. }
         | WriteError::TooManyFacets { .. } => USAGE,
-        WriteError::DraftTooLarge { .. } | WriteError::OutOfRange { .. } => DESIGN,
+        WriteError::DraftTooLarge { .. }
+        | WriteError::ChartTooLarge { .. }
+        | WriteError::LappingTooLarge { .. }
+        | WriteError::OutOfRange { .. } => DESIGN,
         _ => WORLD,
     });
     // A pipeline's error is shown as the error that it holds, so it has the exit code of that

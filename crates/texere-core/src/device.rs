@@ -55,7 +55,7 @@ pub enum Schedule {
     #[default]
     PerRing,
     /// One lane per yarn: the paper's algorithms 2 and 4, kept to compare with. This schedule makes
-    /// only upright, untwisted, open yarns without caps.
+    /// only open, untwisted yarns without caps, whose sections stand upright.
     PerYarn,
 }
 

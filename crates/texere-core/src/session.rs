@@ -326,6 +326,8 @@ impl<E: Engine + ?Sized> Session<E> {
             return Err(SessionError::OutOfOrder { call: "attributes", needed: "measure" });
         }
         let slot = self.seat(chunk)?;
+        // The results of an earlier call are lost even if this call fails.
+        self.in_flight[slot.index()].has_attributes = false;
         self.engine.attributes(slot, chunk)?;
         self.in_flight[slot.index()].has_attributes = true;
         Ok(())

@@ -1,8 +1,8 @@
 //! Characters that look like a hyphen or a slash, but are other characters. Word processors put
-//! them in the place of a hyphen or a slash.
+//! some of them in the place of a hyphen or a slash.
 
-/// The name and the Unicode number of the first character of a text that looks like a hyphen but is
-/// another character.
+/// Looks in a text for the first character that looks like a hyphen but is another character.
+/// Returns the name and the Unicode number of that character.
 ///
 /// ```
 /// assert_eq!(texere_fabric::hyphen_look_alike("1\u{2013}0"), Some("an en dash (U+2013)"));
@@ -13,8 +13,8 @@ pub fn hyphen_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(hyphen)
 }
 
-/// The name and the Unicode number of the first character of a text that looks like a slash but is
-/// another character.
+/// Looks in a text for the first character that looks like a slash but is another character.
+/// Returns the name and the Unicode number of that character.
 pub(crate) fn slash_look_alike(text: &str) -> Option<&'static str> {
     text.chars().find_map(slash)
 }

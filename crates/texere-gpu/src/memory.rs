@@ -1,6 +1,6 @@
 //! The memory that a plan's work needs.
 
-use texere_core::backend::{Block, Plan};
+use texere_core::backend::{Block, Chunk, Plan};
 use texere_core::definitions::Turn;
 use texere_core::{Limits, PlanError, SectionPoint, Vertex};
 
@@ -13,8 +13,6 @@ use crate::upload::Ends;
 /// the caller and those of a [scan](texere_core::backend::Session::with_limits) are cut.
 ///
 /// These are not counted:
-/// - the tables of a scan, as far as they are larger than those of the caller's chunks: a scan has
-///   chunks of the whole cloth, even if `plan` is of a region,
 /// - the rounding up of each buffer to what kernels read at a time,
 /// - parameters and time stamps, some hundred bytes,
 /// - the 16 MiB that wgpu maps to upload through, and two buffers of up to 96 MiB each through
@@ -55,23 +53,28 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
     // Chunks are loaded into the two slots alternately, and a slot's memory grows to that of the
     // largest chunk in it. A scan loads the tables of its chunks first. If it has more than two,
     // the caller's first chunk comes into the slot after that of the scan's last one.
-    let scanned = if plan.needs_scan() { plan.whole().chunks(limits)?.count() } else { 0 };
-    let shift = if scanned > 2 { scanned } else { 0 };
     let mut places = [[0; 4]; 2];
+    let tables = |chunk: &Chunk| {
+        [bytes(chunk.blocks().len(), size_of::<Block>()), bytes(chunk.caps().len(), size_of::<CapRow>())]
+    };
+    let mut scanned = 0;
+    if plan.needs_scan() {
+        // A region's scan goes over the whole plan.
+        for chunk in plan.whole().chunks(limits)? {
+            grow(&mut places[scanned % 2][..2], tables(&chunk));
+            scanned += 1;
+        }
+    }
+    let shift = if scanned > 2 { scanned } else { 0 };
     // Chunks are made one by one, because the tables of all chunks together may need as much memory
     // as a device has.
     for (number, chunk) in plan.chunks(limits)?.enumerate() {
-        let tables =
-            [bytes(chunk.blocks().len(), size_of::<Block>()), bytes(chunk.caps().len(), size_of::<CapRow>())];
         let mesh = [
             bytes(chunk.vertices() as usize, size_of::<Vertex>()),
             bytes(chunk.indices() as usize, size_of::<u32>()),
         ];
-        if number < scanned {
-            grow(&mut places[number % 2][..2], tables);
-        }
         let place = &mut places[(number + shift) % 2];
-        grow(&mut place[..2], tables);
+        grow(&mut place[..2], tables(&chunk));
         grow(&mut place[2..], mesh);
     }
     let names = ["the block table", "the cap table", "vertices", "indices"];

@@ -19,9 +19,9 @@ pub fn device_name(interface: &str, index: Option<usize>, schedule: Schedule) ->
     format!("{interface}{index}{of_schedule}")
 }
 
-/// The capabilities of a GPU under `schedule`. Settling does not depend on the schedule. Apart from
-/// settling, [`Schedule::PerYarn`] only makes meshes. `draw` says whether pictures are drawn
-/// through the GPU's interface.
+/// The capabilities of a GPU under `schedule`. Settling and drawing do not depend on the schedule.
+/// Apart from these two, [`Schedule::PerYarn`] only makes meshes. `draw` says whether pictures are
+/// drawn through the GPU's interface.
 ///
 /// ```
 /// use texere_core::backend::Schedule;
@@ -50,8 +50,8 @@ pub fn serial_unsupported(name: &str) -> BackendError {
 }
 
 /// Checks that a GPU has `schedule`, and that the schedule can make the meshes of `plan`.
-/// [`Schedule::PerYarn`] makes upright, untwisted, open yarns without caps. `name` is the device's
-/// name, for the error.
+/// [`Schedule::PerYarn`] makes only open, untwisted yarns without caps, whose sections stand
+/// [upright](texere_core::Frame::Upright). `name` is the device's name, for the error.
 ///
 /// ```
 /// use texere_core::backend::{Plan, Schedule};

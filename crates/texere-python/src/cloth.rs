@@ -18,7 +18,8 @@ use crate::measures::Measures;
 use crate::mesh::{Compressed, Mesh, settings};
 use crate::pick::Hit;
 use crate::picture::{Asked, Kept, View};
-use crate::yarns::{Shared, Yarns};
+use crate::shared::Shared;
+use crate::yarns::Yarns;
 use crate::{device, mesh, peers, pick, picture, watch, yarns};
 
 /// The cloth of a design: :meth:`texere.Design.rest` makes it.
@@ -279,7 +280,8 @@ impl Cloth {
         py: Python<'py>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        peers::show(&Bound::new(py, self.mesh(py, None, None, false, "auto")?)?, options)
+        let mesh = Bound::new(py, self.mesh(py, None, None, false, "auto")?)?;
+        peers::show(mesh.as_any(), options)
     }
 
     /// A picture for notebooks. None where there is no device for pictures.

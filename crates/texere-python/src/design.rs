@@ -152,8 +152,8 @@ impl Design {
     ) -> PyResult<Self> {
         let mut design = (*self.design).clone();
         let is_woven = design.structure.woven().is_some();
-        if is_woven && (press_mm.is_some() || loop_length.is_some() || rest.is_some()) {
-            return Err(PyValueError::new_err("press_mm, loop_length and rest are those of a knit"));
+        if is_woven && (press_mm.or(loop_length).is_some() || passes.is_some() || rest.is_some()) {
+            return Err(PyValueError::new_err("press_mm, loop_length, passes and rest are those of a knit"));
         }
         let taut = warp_tension.or(weft_tension).or(calender);
         if !is_woven && (stretch.is_some() || taut.is_some()) {

@@ -12,10 +12,9 @@ use crate::change::{Change, changes};
 use crate::mesh::{Mesh, settings};
 use crate::pick::{Hit, ray};
 use crate::watch::Run;
-use crate::woven;
 use crate::yarn::srgb;
 use crate::yarns::{Yarns, points_of};
-use crate::{device, watch};
+use crate::{device, drawdown, watch};
 
 /// Cloth that is edited: :meth:`texere.Cloth.edit` makes it of a :class:`texere.Cloth`, which stays
 /// as it is. One thread at a time may use the edited cloth.
@@ -110,7 +109,7 @@ impl Editing {
     /// Raises :class:`texere.Error` for a knit, TypeError and ValueError for an array that is no
     /// drawdown of the cloth's size.
     fn set_drawdown(&self, py: Python<'_>, drawdown: &Bound<'_, PyAny>) -> PyResult<()> {
-        let drawdown = woven::read(drawdown)?;
+        let drawdown = drawdown::read(drawdown)?;
         let (ends, picks) = (drawdown.ends(), drawdown.picks());
         let own = self.cloth.design().structure.woven().map(|woven| woven.cloth().drawdown());
         if own.is_some_and(|own| (own.ends(), own.picks()) != (ends, picks)) {

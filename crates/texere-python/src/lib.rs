@@ -23,6 +23,7 @@ mod cloth;
 mod crossing;
 mod design;
 mod device;
+mod drawdown;
 mod edit;
 mod error;
 mod knit;
@@ -32,6 +33,7 @@ mod peers;
 mod pick;
 mod picture;
 mod progress;
+mod shared;
 mod strain;
 mod watch;
 mod whole;
@@ -56,6 +58,8 @@ mod _texere {
     #[pymodule_export]
     use crate::device::{Device, devices};
     #[pymodule_export]
+    use crate::drawdown::weave;
+    #[pymodule_export]
     use crate::edit::Editing;
     #[pymodule_export]
     use crate::error::Error;
@@ -70,7 +74,7 @@ mod _texere {
     #[pymodule_export]
     use crate::strain::StrainTest;
     #[pymodule_export]
-    use crate::woven::{weave, woven};
+    use crate::woven::woven;
     #[pymodule_export]
     use crate::yarn::YarnSpec;
     #[pymodule_export]

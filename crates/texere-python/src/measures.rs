@@ -226,7 +226,10 @@ impl Measures {
         let all = PyDict::new(slf.py());
         for name in NAMES {
             let value = slf.getattr(name)?;
-            let is_known = value.extract::<f64>().map_or(true, |number| number.is_finite() && number != 0.0);
+            let is_known = match value.extract::<u64>() {
+                Ok(count) => count > 0,
+                Err(_) => value.extract::<f64>()?.is_finite(),
+            };
             if is_known {
                 all.set_item(name, value)?;
             }

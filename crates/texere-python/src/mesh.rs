@@ -15,9 +15,9 @@ use texere::{Backend, Pipeline, Settings};
 
 use crate::arrays::view;
 use crate::error::{Error, Raise};
+use crate::shared::Shared;
 use crate::watch::Run;
 use crate::whole::Whole;
-use crate::yarns::Shared;
 use crate::{device, peers, watch, whole};
 
 /// The triangles of yarns: :meth:`texere.Cloth.mesh` makes them.
@@ -241,7 +241,7 @@ impl Mesh {
     ///
     /// Raises ImportError unless trimesh is installed.
     fn to_trimesh<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        peers::trimesh(slf)
+        peers::trimesh(slf.as_any())
     }
 
     /// The mesh as a ``pyvista.PolyData``, with its normals, and ``yarn``, ``uv`` and ``rgb`` as
@@ -253,7 +253,7 @@ impl Mesh {
     ///
     /// Raises ImportError unless pyvista is installed.
     fn to_pyvista<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        peers::pyvista(slf)
+        peers::pyvista(slf.as_any())
     }
 
     /// Shows the mesh in a window of pyvista, or in a notebook. ``options`` are those of pyvista's
@@ -268,7 +268,7 @@ impl Mesh {
         slf: &Bound<'py, Self>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        peers::show(slf, options)
+        peers::show(slf.as_any(), options)
     }
 
     fn __repr__(&self) -> String {

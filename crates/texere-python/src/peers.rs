@@ -3,10 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::mesh::Mesh;
-
 /// The arrays of a mesh as keyword arguments.
-fn arrays<'py>(mesh: &Bound<'py, Mesh>, names: &[(&str, &str)]) -> PyResult<Bound<'py, PyDict>> {
+fn arrays<'py>(mesh: &Bound<'py, PyAny>, names: &[(&str, &str)]) -> PyResult<Bound<'py, PyDict>> {
     let arrays = PyDict::new(mesh.py());
     for (argument, name) in names {
         arrays.set_item(argument, mesh.getattr(*name)?)?;
@@ -15,7 +13,7 @@ fn arrays<'py>(mesh: &Bound<'py, Mesh>, names: &[(&str, &str)]) -> PyResult<Boun
 }
 
 /// A `trimesh.Trimesh` with the vertices, normals and colours of a mesh.
-pub(crate) fn trimesh<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn trimesh<'py>(mesh: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = [
         ("vertices", "positions"),
         ("faces", "indices"),
@@ -30,7 +28,7 @@ pub(crate) fn trimesh<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny
 
 /// A `pyvista.PolyData` with the vertices of a mesh. Its normals, yarns, texture coordinates (`uv`)
 /// and colours are data of points.
-pub(crate) fn pyvista<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn pyvista<'py>(mesh: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let class = mesh.py().import("pyvista")?.getattr("PolyData")?;
     let (positions, indices) = (mesh.getattr("positions")?, mesh.getattr("indices")?);
     let made = class.call_method1("from_regular_faces", (positions, indices))?;
@@ -44,7 +42,7 @@ pub(crate) fn pyvista<'py>(mesh: &Bound<'py, Mesh>) -> PyResult<Bound<'py, PyAny
 
 /// Shows a mesh in a window of pyvista, or in a notebook. `options` are those of `Plotter.show`.
 pub(crate) fn show<'py>(
-    mesh: &Bound<'py, Mesh>,
+    mesh: &Bound<'py, PyAny>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = mesh.py();

@@ -1,36 +1,15 @@
 //! Woven designs in code.
 
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use texere::Structure;
-use texere::woven::{Crimp, Drawdown, Relief, Shape, Thread, Weave, Woven, WovenDesign};
+use texere::woven::{Crimp, Relief, Shape, Thread, Woven, WovenDesign};
 
 use crate::arrays::given;
 use crate::design::Design;
+use crate::drawdown;
 use crate::error::Raise;
 use crate::yarn::Bobbins;
-
-/// The drawdown of a weave in notation, as a bool array of shape (picks, ends): ``plain``, ``2/2``,
-/// ``satin 8(3)``, ``herringbone 2/2(16)``. Row 0 is the first pick, at the bottom of the cloth;
-/// column 0 the first end, at the left. True: the end lies on the face. Returns a copy.
-///
-/// >>> texere.weave("2/2", ends=4, picks=2).astype(int).tolist()
-/// [[1, 1, 0, 0], [0, 1, 1, 0]]
-///
-/// Raises :class:`texere.Error` for a text that is no notation, and for a size that no cloth has.
-#[pyfunction]
-pub(crate) fn weave<'py>(
-    py: Python<'py>,
-    notation: &str,
-    ends: usize,
-    picks: usize,
-) -> PyResult<Bound<'py, PyArray2<bool>>> {
-    let drawdown = Weave::parse(notation).raise(py)?.drawdown(ends, picks).raise(py)?;
-    let up = |(pick, end)| drawdown.up(end, pick);
-    Ok(Array2::from_shape_fn((picks, ends), up).into_pyarray(py))
-}
 
 /// A woven design from a drawdown and yarns.
 ///
@@ -64,7 +43,7 @@ pub(crate) fn woven(
     warp_share: Option<f32>,
     relief: &str,
 ) -> PyResult<Design> {
-    let drawdown = read(drawdown)?;
+    let drawdown = drawdown::read(drawdown)?;
     let mut bobbins = Bobbins::default();
     let (warp, weft) = (bobbins.add("warp", warp)?, bobbins.add("weft", weft)?);
     let warp = threads(&bobbins, &warp, drawdown.ends(), "warp_mm", warp_mm)?;
@@ -79,20 +58,6 @@ pub(crate) fn woven(
     let relief = choice("relief", relief, &reliefs)?;
     let woven = WovenDesign::new(cloth, None, relief).raise(py)?;
     Ok(Design::of(texere::Design::of(name, Structure::Woven(woven))))
-}
-
-/// A drawdown from a caller's array.
-pub(crate) fn read(value: &Bound<'_, PyAny>) -> PyResult<Drawdown> {
-    let array = given("drawdown", value, &[None, None])?;
-    let (picks, ends) = (array.shape[0], array.shape[1]);
-    // The size is checked before anything of that size is copied.
-    let mut drawdown = Drawdown::new(ends, picks).raise(value.py())?;
-    for (number, up) in array.values::<bool>()?.into_iter().enumerate() {
-        if up {
-            drawdown.set(number % ends, number / ends, true).raise(value.py())?;
-        }
-    }
-    Ok(drawdown)
 }
 
 /// `count` threads that take the `yarns` in turn.

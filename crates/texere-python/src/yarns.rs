@@ -1,6 +1,5 @@
 //! Yarns with their control points, of cloth or of the caller's own arrays.
 
-use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,27 +16,8 @@ use texere::{ControlPoint, WriteError};
 use crate::arrays::{given, view};
 use crate::error::{Error, Raise};
 use crate::mesh::{Mesh, settings};
+use crate::shared::Shared;
 use crate::{mesh, watch};
-
-/// Yarns that several objects of Python share.
-#[derive(Debug, Clone)]
-pub(crate) enum Shared {
-    /// The yarns of a cloth.
-    Cloth(Arc<texere::Cloth>),
-    /// Yarns that belong to no cloth.
-    Own(Arc<texere::Yarns>),
-}
-
-impl Deref for Shared {
-    type Target = texere::Yarns;
-
-    fn deref(&self) -> &texere::Yarns {
-        match self {
-            Self::Cloth(cloth) => cloth.yarns(),
-            Self::Own(yarns) => yarns,
-        }
-    }
-}
 
 /// Yarns: control points of centrelines, with their thickness.
 ///

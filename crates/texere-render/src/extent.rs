@@ -67,7 +67,8 @@ impl Extent {
     }
 
     /// The least distance, mm, from which an eye sees all of the cloth. `toward` is the direction
-    /// from the cloth's middle to the eye, and `up` the direction that is up in pictures of `size`.
+    /// from the cloth's middle to the eye, of length 1. `up` is the direction that is up in the
+    /// picture, of any length. `size` is the width and height of the picture, pixels.
     /// `field_of_view` is the angle from the picture's lower to its upper edge, radians. `margin`
     /// is the room left round the cloth, as a share of the cloth's size.
     ///
@@ -104,7 +105,8 @@ impl Extent {
     }
 
     /// How far yarns may reach out of the box, mm. A spline of tension 0 leaves the box of its
-    /// control points by up to an eighth of the box's sides, and sections have corners.
+    /// control points by up to an eighth of the box's sides. The corners of a section may lie
+    /// further out than half its width and half its height: the mean radius is added for them.
     pub(crate) fn spare(&self) -> Vec3 {
         (Vec3::from(self.high) - Vec3::from(self.low)) / 8.0 + self.radius
     }

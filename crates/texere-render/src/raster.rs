@@ -38,7 +38,7 @@ const _: () = assert!(size_of::<Sweep>() == 32);
 const BLOCKS_MOST: u64 = 1 << 20;
 
 /// The bytes of a ring's roll and lean.
-const ROLL_BYTES: u64 = 8;
+pub(crate) const ROLL_BYTES: u64 = 8;
 
 /// The bytes of a block in the three lists of `Listed` in `fabric.wgsl`. The three counts of the
 /// lists take as many bytes together.

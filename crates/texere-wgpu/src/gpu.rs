@@ -156,14 +156,13 @@ impl Gpu {
         if self.waits(submission, WAIT_LIMIT)? {
             return Ok(());
         }
-        Err(BackendError::Driver { call: "Device::poll", source: PollError::Timeout.into() })
+        Err(too_long())
     }
 
     /// Waits until `submission` is done, or until `goes_on` returns false. `goes_on` is called
     /// every ten milliseconds. Returns whether the submission is done.
     ///
-    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after four minutes. In
-    /// the last two of these minutes `goes_on` is not called.
+    /// **Errors**: [`BackendError::DeviceLost`]; [`BackendError::Driver`] after two minutes.
     pub(crate) fn wait_while(
         &self,
         submission: &SubmissionIndex,
@@ -176,7 +175,7 @@ impl Gpu {
         while !self.waits(submission.clone(), Duration::ZERO)? {
             let waited = start.elapsed();
             if waited > WAIT_LIMIT {
-                return self.wait(submission.clone()).map(|()| true);
+                return Err(too_long());
             }
             if waited > asked + ASKED {
                 asked = waited;
@@ -209,4 +208,9 @@ impl Gpu {
             }
         }
     }
+}
+
+/// The error of work that took longer than [`WAIT_LIMIT`].
+fn too_long() -> BackendError {
+    BackendError::Driver { call: "Device::poll", source: PollError::Timeout.into() }
 }

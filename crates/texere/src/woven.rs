@@ -5,10 +5,10 @@
 //! | write a weave in its usual notation | [`Weave`] |
 //! | thread a loom | [`Draft`], [`Shedding`] |
 //! | say which thread lies on top at each crossing | [`Drawdown`] |
-//! | say which yarn each thread is, and how close threads lie | [`Thread`], [`Pitch`] |
+//! | say which yarn each thread is, and how close threads lie | [`Thread`] |
 //! | make a cloth | [`Woven`]; [`WovenDesign`] adds how it comes to rest |
 //! | have a value for the warp and one for the weft | [`BySet`], [`Set`] |
-//! | know whether threads have room | [`JamReport`], [`Sett`], [`Relief`], [`Tightness`] |
+//! | know whether threads have room, or make room | [`Pitch`], [`Tightness`], [`Sett`]; [`Relief`], [`JamReport`] |
 //! | place single ends and picks again after an edit | [`Loom`] |
 //!
 //! ```

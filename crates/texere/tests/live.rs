@@ -118,7 +118,7 @@ fn plied_cloth_at_rest_is_live() {
     // A second call changes nothing, and the other threads stay at rest round a lift.
     live.set_rest(&rest.yarns).unwrap();
     assert!(live.update().unwrap().changes.is_empty());
-    live.set_lift(4, 5, false).unwrap();
+    live.set_lift(4, 5, true).unwrap();
     let lifted = live.yarns().unwrap();
     assert_eq!(lifted.layout().sections(), rest.yarns.layout().sections());
     assert_eq!(lifted.yarn_points(3), rest.yarns.yarn_points(3));
@@ -173,7 +173,7 @@ fn a_material_that_yarns_refuse_is_refused() {
     }
     assert!(live.set_material(2, Material::default()).is_err());
     assert_eq!(live.materials()[0], Material::default());
-    live.set_lift(3, 2, false).unwrap();
+    live.set_lift(3, 2, true).unwrap();
     live.yarns().unwrap();
     live.update().unwrap();
 }

@@ -1,4 +1,5 @@
-//! The corpus: valid designs from which inputs are mutated.
+//! The corpus: designs from which inputs are mutated. Most are valid, and a few are refused as they
+//! stand.
 
 /// Small drafts, each with something that the others lack.
 pub(crate) const WIF: &[&str] = &[
@@ -70,7 +71,7 @@ pub(crate) const POLYLINES: &[&str] = &[
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nl 1/1 2/1 \\\n 3/1 1/1\n",
 ];
 
-/// USD files with curves of every basis, and of every wrap but `pinned`.
+/// USD files with curves of every basis and of every wrap.
 pub(crate) const STAGES: &[&str] = &[
     "#usda 1.0\n(\n    metersPerUnit = 0.001\n    upAxis = \"Z\"\n)\ndef Xform \"cloth\" (\n    kind = \"component\"\n)\n{\n\
      def BasisCurves \"a\" (\n    displayName = \"red \\\"\"\n)\n{\n    uniform token basis = \"catmullRom\"\n    int[] \
@@ -92,6 +93,9 @@ pub(crate) const STAGES: &[&str] = &[
      [2, 3]\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (5, 5, 5), (6, 5, 5), (6, 6.5, 5)]\nfloat[] widths = [0.1, 0.2] (interpolation = \
      \"uniform\")\ncolor3f[] primvars:displayColor = [(0, 0, 0), (1, 1, 1)] (interpolation = \"uniform\")\ntoken[] a.timeSamples = { 1: \
      [\"x\"], }\nrel m = </gone> }\n",
+    "#usda 1.0\ndef BasisCurves \"p\" { uniform token basis = \"catmullRom\"\nuniform token wrap = \"pinned\"\nint[] \
+     curveVertexCounts = [4]\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\nfloat[] widths = [0.1, 0.2, 0.2, \
+     0.1] }\n",
 ];
 
 /// TexGen files with every kind of path and section that is read.
@@ -146,7 +150,7 @@ pub(crate) const WARPS: &[&str] = &[
      \"#000000\" = \"1-1/0-1\"\n\"#ffffff\" = \"0-1/1-0\"\n\"#c81020\" = \"1-0/0-0\"\n[yarns.a]\ndiameter_mm = 0.1\n",
 ];
 
-/// Weaves, each of another form.
+/// Notations of weaves. Each is written in a different way.
 pub(crate) const NOTATIONS: &[&str] = &[
     "plain",
     "3/1",

@@ -90,7 +90,6 @@ fn palette(width: u32, height: u32, random: &mut Rng) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth([png::BitDepth::One, png::BitDepth::Four][random.usize(..2)]);
     encoder.set_palette(vec![0, 0, 0, 255, 255, 255]);
     let bits = if random.bool() { 1 } else { 4 };
     encoder.set_depth(if bits == 1 { png::BitDepth::One } else { png::BitDepth::Four });

@@ -124,7 +124,11 @@ impl Input {
             }
             Reader::Image => {
                 let design = random.choice(corpus::PAPERS).copied().unwrap_or_default();
-                vec![("design.toml", design.into()), ("motif.png", image_bytes::mutated(random))]
+                vec![
+                    ("design.toml", design.into()),
+                    ("motif.png", image_bytes::mutated(random)),
+                    ("draft.wif", corpus::WIF[0].into()),
+                ]
             }
             Reader::Paper => vec![
                 ("design.toml", text::mutated(corpus::PAPERS, random)),

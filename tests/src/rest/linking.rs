@@ -1,9 +1,9 @@
 //! Finds passages of yarns through one another, by Gauss's linking integral of windows of yarn
 //! before and after settling.
 //!
-//! Windows are shorter than loops. When a head is pulled out of the loop above it, the integral may
-//! grow at one leg by as much as it falls at the other leg, so that the integral of a whole loop
-//! would not change.
+//! A window is a short piece of a yarn, shorter than a loop. If the head of a loop is pulled out of
+//! the loop above it, the integral may grow at one leg and fall by as much at the other leg. In a
+//! window that holds the whole loop, the two changes would cancel out.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -26,8 +26,8 @@ const HALF_WINDOW: isize = 3;
 /// Number of chords per interval.
 const PARTS: usize = 4;
 
-/// Largest distance between the middles of compared windows, before or after, in sums of both
-/// radii.
+/// Largest distance between two chords whose windows are compared, before or after, as a multiple
+/// of the sum of both radii.
 const NEAR: f64 = 2.0;
 
 /// The result of [`linking`].
@@ -39,8 +39,8 @@ pub struct Linking {
     pub at: Option<[Place; 2]>,
 }
 
-/// Compares how the yarns of `start` are linked at their points `before` with how they are linked
-/// at their points `after`. All copies of the repeat count.
+/// Compares how the yarns of `start` are linked in two shapes. The control points of the first
+/// shape are `before`, those of the second are `after`. All copies of the repeat count.
 ///
 /// # Panics
 ///
@@ -79,12 +79,12 @@ pub fn linking_integral(one: &[DVec3], other: &[DVec3]) -> f64 {
     chords(one).iter().flat_map(|&one| others.iter().map(move |&other| of_chords(one, other))).sum()
 }
 
-/// The integral of two chords: the solid angle of all directions in which one is seen to cross the
-/// other, divided by that of the whole sphere (Klenin and Langowski 2000).
+/// The integral of two chords: the solid angle of all directions from a point of one to a point of
+/// the other, divided by that of the whole sphere (Klenin and Langowski 2000).
 ///
 /// These directions are a quadrangle on the sphere. It is cut into two triangles, whose solid
-/// angles come from the formula of Van Oosterom and Strackee (1983). The formula has the sign, and
-/// gives 0 for chords in one plane.
+/// angles come from the formula of Van Oosterom and Strackee (1983). The formula gives the
+/// integral's sign, too. It gives 0 for chords in one plane.
 fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
     let [a, b, c, d] = [other[0] - one[0], other[1] - one[0], other[1] - one[1], other[0] - one[1]];
     let triangle = |a: DVec3, b: DVec3, c: DVec3| {
@@ -94,7 +94,8 @@ fn of_chords(one: [DVec3; 2], other: [DVec3; 2]) -> f64 {
     (triangle(a, b, c) + triangle(c, d, a)) / TAU
 }
 
-/// Two windows, and the repeats by which the second one is moved.
+/// Two windows, each given by its middle, or two intervals. `image` is the number of repeats by
+/// which the second one is moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Pair {
     one: Place,
@@ -140,8 +141,9 @@ impl<'a> Cloth<'a> {
         Self { start, chains: (0..points.len()).map(chain).collect() }
     }
 
-    /// The interval `step` intervals after `place`, and the repeats by which it lies further. None
-    /// beyond the ends of an open yarn.
+    /// The interval `step` intervals after `place`. The result is its place within the repeat, and
+    /// the number of repeats by which it lies beyond that place. None beyond the ends of an open
+    /// yarn.
     fn interval(&self, place: Place, step: isize) -> Option<(Place, [i32; 2])> {
         let count = self.chains[place.yarn].len() as isize;
         let at = place.interval as isize + step;
@@ -161,10 +163,10 @@ impl<'a> Cloth<'a> {
         linking_integral(first, &self.chains[other.yarn][other.interval].map(|point| point + shift))
     }
 
-    /// All pairs of windows whose middles come near one another and that do not overlap.
+    /// All pairs of windows that have chords near one another at their middles and don't overlap.
     fn near(&self) -> Vec<Pair> {
         let start = self.start;
-        // A chord and the control point nearest to it.
+        // All chords, each behind the number of a control point at one of its ends.
         let mut chords = Vec::new();
         for (yarn, chain) in self.chains.iter().enumerate() {
             for (interval, points) in chain.iter().enumerate() {
@@ -199,8 +201,9 @@ impl<'a> Cloth<'a> {
         pairs
     }
 
-    /// Whether both windows are of one yarn and share an interval or an end. If they shared an end,
-    /// rounding at the edge of a repeat would decide the integral.
+    /// Whether both windows are of one yarn and share an interval or an end. At the edge of a
+    /// repeat, one of the two copies of a shared end is moved by the repeat. Rounding leaves a tiny
+    /// gap between the copies, and the direction of this gap would decide the integral.
     fn overlap(&self, pair: Pair) -> bool {
         let steps = -2 * HALF_WINDOW..=2 * HALF_WINDOW;
         pair.one.yarn == pair.other.yarn

@@ -10,7 +10,8 @@ use crate::common::message;
 /// The design that a text describes.
 pub(crate) fn read(text: &str) -> *mut texere_design {
     let (name, mut design) = ("text.toml", null_mut());
-    // SAFETY: all pointers are those of values that live as long as the call.
+    // SAFETY: the name, the text and `design` live as long as the call. The text names no files, so
+    // that the callback and its value may be null.
     let read = unsafe {
         let (name, length) = (name.as_ptr().cast(), name.len());
         texere_design_read_memory(name, length, text.as_ptr(), text.len(), None, null_mut(), &mut design)

@@ -7,7 +7,7 @@ use texere_c::*;
 use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::wrong_settings;
-use crate::tools::{Case, case, handles, sizes, strange};
+use crate::tools::{Case, case, handles, no_handle, sizes, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -29,7 +29,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_check, |it| texere_check_json(it, &mut null()));
     handles!(cases, own, texere_check, |it| texere_check_measures_json(it, &mut null()));
     for run in strange() {
-        case!(cases, texere_check_new(own.cloth, null(), 0.0, run, &mut null_mut()));
+        no_handle!(cases, texere_check_new(own.cloth, null(), 0.0, run, &mut null_mut()));
     }
     sizes!(cases, texere_measures, |it| texere_cloth_measures(own.cloth, &mut it));
     sizes!(cases, texere_settings, |it| texere_check_new(own.cloth, &it, 0.0, null(), &mut null_mut()));

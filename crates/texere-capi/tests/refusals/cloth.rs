@@ -6,7 +6,7 @@ use texere_c::*;
 
 use crate::common::sized;
 use crate::handles::{DESIGN, Handles, text};
-use crate::tools::{Case, case, handles, sizes, strange};
+use crate::tools::{Case, case, handles, no_handle, sizes, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -52,7 +52,7 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_cloth, |cloth| texere_cloth_warning(cloth, 0, &mut null()));
     handles!(cases, own, texere_cloth, |cloth| texere_cloth_yarns(cloth, &mut null_mut()));
     for run in strange() {
-        case!(cases, texere_cloth_rest(own.design, own.device, run, &mut null_mut()));
+        no_handle!(cases, texere_cloth_rest(own.design, own.device, run, &mut null_mut()));
     }
     sizes!(cases, texere_device_info, |info| texere_device_describe(own.device, &mut info));
     sizes!(cases, texere_report, |report| texere_cloth_report(own.cloth, &mut report));

@@ -9,7 +9,7 @@ use texere_c::*;
 use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::settings;
-use crate::tools::{Case, case, handles, sizes, strange};
+use crate::tools::{Case, case, handles, no_handle, sizes, strange};
 
 pub(crate) unsafe extern "C" fn take_bytes(_: *mut c_void, _: u64, _: *const u8, _: usize) -> i32 {
     0
@@ -67,12 +67,12 @@ fn of_plans(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_plan, |it| texere_plan_attributes(it, null(), small));
     handles!(cases, own, texere_plan, |it| texere_plan_trajectory(it, null(), small));
     for run in strange() {
-        case!(cases, texere_plan_write_to(own.plan, run, 0, Some(take_bytes), null_mut()));
-        case!(cases, texere_plan_stream(own.plan, run, Some(take_piece), null_mut()));
-        case!(cases, texere_plan_mesh_arrays(own.plan, run, &sized()));
-        case!(cases, texere_plan_packed(own.plan, run, small));
-        case!(cases, texere_plan_attributes(own.plan, run, small));
-        case!(cases, texere_plan_trajectory(own.plan, run, small));
+        no_handle!(cases, texere_plan_write_to(own.plan, run, 0, Some(take_bytes), null_mut()));
+        no_handle!(cases, texere_plan_stream(own.plan, run, Some(take_piece), null_mut()));
+        no_handle!(cases, texere_plan_mesh_arrays(own.plan, run, &sized()));
+        no_handle!(cases, texere_plan_packed(own.plan, run, small));
+        no_handle!(cases, texere_plan_attributes(own.plan, run, small));
+        no_handle!(cases, texere_plan_trajectory(own.plan, run, small));
     }
     sizes!(cases, texere_chunk, |chunk| texere_plan_chunk(own.plan, 0, &mut chunk));
     sizes!(cases, texere_mesh_arrays, |arrays| texere_plan_mesh_arrays(own.plan, null(), &arrays));
@@ -94,7 +94,7 @@ fn of_sessions(own: &'static Handles) -> Vec<Case> {
     handles!(cases, own, texere_session, |it| texere_session_wait(it));
     handles!(cases, own, texere_session, |it| texere_session_read(it, 0, null_mut(), 0, null_mut(), 0));
     for run in strange() {
-        case!(cases, texere_session_new(own.plan, run, &mut null_mut()));
+        no_handle!(cases, texere_session_new(own.plan, run, &mut null_mut()));
     }
     sizes!(cases, texere_native, |native| texere_session_native(null(), &mut native));
     sizes!(cases, texere_device_mesh, |mesh| texere_session_mesh(null(), 0, &mut mesh));

@@ -9,7 +9,7 @@ use crate::common::sized;
 use crate::handles::Handles;
 use crate::mesh::settings;
 use crate::outputs::take_bytes;
-use crate::tools::{Case, case, strange};
+use crate::tools::{Case, case, no_handle, strange};
 
 pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
@@ -40,10 +40,13 @@ pub(crate) fn cases(own: &'static Handles) -> Vec<Case> {
         case!(cases, texere_renderer_write_to(renderer, &picture(), null(), Some(take_bytes), null_mut()));
     }
     for run in strange() {
-        case!(cases, texere_renderer_show(own.renderer, own.yarns, null(), run));
-        case!(cases, texere_renderer_picture(own.renderer, &picture(), run, &pixels));
-        case!(cases, texere_renderer_write(own.renderer, &picture(), run, png, length));
-        case!(cases, texere_renderer_write_to(own.renderer, &picture(), run, Some(take_bytes), null_mut()));
+        no_handle!(cases, texere_renderer_show(own.renderer, own.yarns, null(), run));
+        no_handle!(cases, texere_renderer_picture(own.renderer, &picture(), run, &pixels));
+        no_handle!(cases, texere_renderer_write(own.renderer, &picture(), run, png, length));
+        no_handle!(
+            cases,
+            texere_renderer_write_to(own.renderer, &picture(), run, Some(take_bytes), null_mut())
+        );
     }
     for (text, length) in [(null(), 4), (b"\xff\xfe".as_ptr().cast(), 2)] {
         case!(cases, texere_renderer_open(text, length, &mut null_mut()));

@@ -5,7 +5,7 @@ use texere::{Pipeline, Settings};
 
 use crate::{stderr, texere};
 
-/// A weave that is stretched before it comes to rest, a knit and a warp knit, small.
+/// Three small designs: a weave that is stretched before it comes to rest, a knit and a warp knit.
 pub(crate) const DESIGNS: [(&str, &str); 3] = [
     (
         "weave",

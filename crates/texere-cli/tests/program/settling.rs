@@ -100,7 +100,7 @@ fn what_has_no_room_says_so_and_is_still_checked() {
     assert_eq!((code, &report["clean"]), (4, &Value::Bool(false)), "{report}");
     assert!(report["settling"]["clearance"].as_f64().unwrap() < 0.98 && report["jams"].is_null(), "{report}");
     let text = stdout(&texere(&["check", &cloth]));
-    assert!(text.contains("% beyond it they jam") && text.contains("cure  warp.spacing_mm"), "{text}");
+    assert!(text.contains("% beyond the most they jam") && text.contains("cure  warp.spacing_mm"), "{text}");
     // With the spacing of the cure the cloth is clean.
     let spacing = &report["cures"][0];
     assert_eq!(spacing["key"], "warp.spacing_mm, weft.spacing_mm", "{report}");

@@ -25,7 +25,7 @@ pub enum SessionError {
     #[error(transparent)]
     Yarns(#[from] YarnError),
     /// An upload past the last control point.
-    #[error("upload of points {first} to {end}, but there are {points}")]
+    #[error("upload of the points from {first} to before {end}, counted from 0, but there are {points}")]
     UploadRange {
         /// Number of the first point.
         first: u64,

@@ -15,7 +15,7 @@ pub enum WeftError {
     KnitSize {
         /// What there are too many of.
         what: &'static str,
-        /// The number of these things.
+        /// The number of these things, up to the first operation beyond the limit.
         count: u64,
         /// The most that is allowed.
         limit: u64,
@@ -81,10 +81,11 @@ pub enum WeftError {
         /// What is wrong.
         what: &'static str,
     },
-    /// Too many copies of a small repeat that have to settle together, because their number has no
-    /// suitable divisor up to 16.
+    /// Too many loops in copies of a repeat that settle together. Along each axis, the smallest
+    /// number of copies settles together that divides the number of all copies and has at least 4
+    /// wales or courses. If no number up to 16 is such a number, all copies settle together.
     #[error(
-        "copies of a small repeat whose number has no divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
+        "copies of a small repeat whose number has no suitable divisor up to 16 settle as one, of {loops}; {limit} are taken at most: take multiples of 4", loops = counted(*.loops, "loop"))]
     Copies {
         /// Loops, or laps of all bars, of the repeats that settle together.
         loops: u64,
@@ -104,7 +105,7 @@ pub enum WeftError {
     #[error("a repeat of {points} control points or more, before it is copied; {limit} are taken at most")]
     KnitRepeat {
         /// About how many control points the repeat has. A knit that does not repeat counts as a
-        /// whole.
+        /// whole. In a warp knit, counting ends at the first lap beyond the limit.
         points: u64,
         /// The most control points allowed.
         limit: u64,

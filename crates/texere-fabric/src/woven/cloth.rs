@@ -355,7 +355,7 @@ impl Woven {
     }
 
     /// Middles of the ends (x) and of the picks (y), mm from the cloth's left and lower edges. Each
-    /// thread lies in the middle of a column as wide as its own spacing.
+    /// thread lies in the middle of a strip as wide as its own spacing.
     ///
     /// ```
     /// use texere_core::{Material, Section};

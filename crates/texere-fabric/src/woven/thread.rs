@@ -28,7 +28,7 @@ pub(super) const FIRMNESS_MIN: f32 = 0.01;
 /// The largest firmness of a thread's section, as a multiple of that of cotton.
 pub(super) const FIRMNESS_MAX: f32 = 100.0;
 
-/// One end or one pick: its yarn, and the width of its column of the cloth.
+/// One end or one pick: its yarn, and the width of the strip of cloth that it takes.
 ///
 /// ```
 /// use texere_fabric::Thread;
@@ -37,8 +37,8 @@ pub(super) const FIRMNESS_MAX: f32 = 100.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thread {
-    /// Width of the thread's column of the cloth, mm. The thread lies in the middle of its column,
-    /// so that the distance of two neighbours is half the sum of their spacings.
+    /// Width of the strip of cloth that the thread takes, mm. The thread lies in the middle of its
+    /// strip, so that the distance of two neighbours is half the sum of their spacings.
     pub spacing_mm: f64,
     /// Radius of the yarn when it is round, mm.
     pub radius_mm: f32,
@@ -98,7 +98,7 @@ impl Thread {
     }
 }
 
-/// Middles of a set's threads, mm from the cloth's edge. Each thread lies in the middle of a column
+/// Middles of a set's threads, mm from the cloth's edge. Each thread lies in the middle of a strip
 /// as wide as its own spacing.
 ///
 /// **Source**: WIF 1.1 (Nielsen 1997) calls a thread's spacing the room that it takes in the cloth.

@@ -27,8 +27,9 @@ use texere_fabric::{
 
 const RADIUS: f64 = 0.1;
 
-/// The share of their thickness with which yarns are measured. Before, yarns have grown to their
-/// whole thickness. Points that are moved a little therefore press no core into another.
+/// The share of their thickness that yarns have where forces are compared with the oracle. The
+/// state was found with yarns of their whole thickness. In thinner yarns, points that are moved a
+/// little press no core into another.
 const GROWTH: f64 = 0.9;
 
 /// One repeat of a knit with yarns of 0.2 mm.
@@ -49,7 +50,7 @@ fn knit_of_material(chart: &str, gauge: Gauge, radius: f64, material: Material) 
     Knitted::new(stitches, gauge, yarns, materials, sections, [1, 1]).unwrap()
 }
 
-/// A knit whose loops have the length of `diameters` of the yarn, before it comes to rest.
+/// A knit as it is placed. Its loops are `diameters` times as long as the yarn is thick.
 fn slack(chart: &str, diameters: f64) -> Knitted {
     let length = 2.0 * RADIUS * diameters;
     let gauge = Gauge { loop_length_mm: Some(length), ..Gauge::new(length / 3.7, length / 5.5) };
@@ -92,8 +93,8 @@ fn measured(
     seen.continue_value().unwrap()
 }
 
-/// Ten pieces, among them loops on both beds, floats, tucks, crossed and moved loops, and warp
-/// knits with long underlaps.
+/// Ten pieces: eight weft knits, a tricot and a locknit. Among the weft knits are loops on both
+/// beds, floats, tucks, crossed loops and moved loops.
 fn pieces() -> Vec<(&'static str, Piece)> {
     let weft = ["k", "kp", "k\np", "kp\npk", "kt\ntk", "km\nmk", "kk>k\nkkkk", "RRrr\nkkkk"];
     let weft = weft.into_iter().map(|chart| (chart, piece(chart)));
@@ -278,8 +279,9 @@ fn stockinette_follows_a_published_simulation_under_strain() {
     assert!(pulls.is_sorted() && pulls[0] < 0.0 && pulls[1] > 0.0, "{pulls:?}");
 }
 
-/// In relaxed jersey Munden measured wales and courses per mm. Times the length of a loop in mm,
-/// they are 3.8 to 4.2 and 5.0 to 5.5. No such constant is in the code.
+/// Munden measured wales and courses per mm in relaxed jersey. Wales per mm times the length of a
+/// loop in mm are 3.8 to 4.2, and courses per mm times that length are 5.0 to 5.5. The search for
+/// rest uses no such constant.
 #[test]
 fn jersey_has_its_proportions() {
     let piece = stockinette(3.0);
@@ -294,7 +296,8 @@ fn jersey_has_its_proportions() {
     assert!((3.8..4.2).contains(&wales) && (5.0..5.6).contains(&courses), "{wales} {courses}");
 
     // Yarn of which only the radius is known counts as cotton. Loops of 24.4, 20.6 and 17.9
-    // diameters have a tightness of 11, 13 and 15.
+    // diameters have a tightness of 11, 13 and 15. Tightness is the root of the yarn's tex over the
+    // length of a loop in cm.
     for diameters in [24.4, 20.6, 17.9] {
         let rest = at_rest(&Structure::Weft(slack("k", diameters)));
         let [wales, courses] =

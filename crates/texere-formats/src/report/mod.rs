@@ -1,5 +1,5 @@
-//! Reports of a design's cloth: what it measures, and what is wrong with it. They serialize, and
-//! they give lines for people.
+//! Reports on the cloth of a design: its measures, its faults, how its yarns came to rest, and how
+//! it behaves when it is strained. Each report can be serialized, or written as text for people.
 
 mod check;
 mod clearance;

@@ -61,7 +61,7 @@ impl fmt::Display for SettReport {
         let (spacing_mm, thinner) = ((1e5 / greatest_per_cm).ceil() / 1e4, (share * 1e2).ceil() / 1e2);
         write!(
             f,
-            "; {:.1} % beyond it they jam or flatten: {spacing_mm:.4} mm from one to the next, or yarns {thinner:.2} times as \
+            "; {:.1} % beyond the most they jam or flatten: {spacing_mm:.4} mm from one to the next, or yarns {thinner:.2} times as \
              thin, would be within it",
             (share - 1.0) * 100.0
         )

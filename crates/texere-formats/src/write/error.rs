@@ -202,8 +202,21 @@ pub enum WriteError {
         /// The most pixels of a side.
         limit: usize,
     },
-    /// A knit that is too large for a chart, or a warp knit whose chains are too long to be written
-    /// below its lappings.
+    /// A warp knit whose chains are so long, or whose bars are so many, that a picture has too few
+    /// pixels to hold them below the lappings.
+    #[error(
+        "lapping diagram of {bars} takes {width} × {height} pixels, because their chains are written below it; each side may have {limit} at most", bars = counted(*.bars, "bar"))]
+    LappingTooLarge {
+        /// Guide bars of the knit.
+        bars: usize,
+        /// Width of the picture, pixels.
+        width: usize,
+        /// Height of the picture, pixels.
+        height: usize,
+        /// The most pixels of a side.
+        limit: usize,
+    },
+    /// A knit that is too large for a chart.
     #[error(
         "a chart of {wales} and {courses}; {side} of each are drawn at most, and {squares} squares", wales = counted(*.wales, "wale"), courses = counted(*.courses, "course"))]
     ChartTooLarge {
@@ -213,7 +226,7 @@ pub enum WriteError {
         courses: usize,
         /// The most wales, and the most courses, that are drawn.
         side: usize,
-        /// The most squares that are drawn. For a warp knit, the number of squares of its diagram.
+        /// The most squares that are drawn.
         squares: usize,
     },
     /// The boundary is that of other yarns.

@@ -262,6 +262,10 @@ fn cloth_at_rest_gives_way_by_itself() {
         assert!(remarks.contains(&format!("{key} counts for nothing in cloth at rest")), "{remarks}");
     }
     assert!(read_text(&format!("{table}[finish]\nsettle = false\n")).unwrap().remarks().is_empty());
+    // A yarn's own flatness counts in cloth at rest.
+    let flat = DENIM.replacen("tex = ", "flatness = 1.5\ntex = ", 1);
+    assert_ne!(flat, DENIM);
+    assert!(read_text(&flat).unwrap().remarks().is_empty());
 }
 
 /// Mills give counts and threads per inch.

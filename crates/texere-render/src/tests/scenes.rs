@@ -11,7 +11,7 @@ use texere_core::{
 use texere_cpu::Picker;
 
 use super::{SETTINGS, SIZE, TWILL, renderer, two_yarns};
-use crate::raster::Raster;
+use crate::raster::{ROLL_BYTES, Raster};
 use crate::{Background, Camera, Extent, Picture, Pose, Quality, RenderError, Scene};
 
 /// Two cloths with warp in red and green and weft in blue. The second lies beside the first, turned
@@ -307,7 +307,7 @@ fn chunks_of_pictures_fit_a_binding() {
             for chunk in plan.chunks(&limits).unwrap() {
                 let window = chunk.window();
                 let points = (window.end - window.start) * size_of::<ControlPoint>() as u64;
-                let rolls = 4 * u64::from(chunk.rings());
+                let rolls = ROLL_BYTES * u64::from(chunk.rings());
                 assert!(points.max(rolls) <= BYTES, "{counts:?} {closed} {subdivisions}: {points}, {rolls}");
             }
         }

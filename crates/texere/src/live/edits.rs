@@ -191,7 +191,7 @@ impl Live {
     /// // The cloth as it is woven is seen at once.
     /// let mut live = Live::new(Arc::clone(&device), &design.structure, Settings::default())?;
     /// live.set_rest(design.rest(&*device).run()?.yarns())?;
-    /// live.set_lift(3, 2, false)?; // end 4 and pick 3 lie as woven
+    /// live.set_lift(3, 2, true)?; // end 4 and pick 3 lie as woven
     /// live.update()?;
     /// # Ok(())
     /// # }

@@ -81,7 +81,7 @@ pub(super) fn operations() -> Vec<Operation> {
             texere_plan_stream(plan, run, callback, std::ptr::without_provenance_mut(user))
         };
         texere_plan_write_to, 2, |caller| {
-            let (plan, run, format) = (caller.handle(), caller.handle_or_null(), caller.random.choice(5));
+            let (plan, run, format) = (caller.handle(), caller.handle_or_null(), caller.random.choice(10));
             let (callback, user) = taking(caller);
             texere_plan_write_to(plan, run, format, callback, user)
         };

@@ -105,12 +105,15 @@ pub enum ChartError {
         /// The most yarns allowed.
         limit: u32,
     },
-    /// A needle that gets loops and never knits them off, or a chart in which nothing knits.
+    /// A needle that gets loops and never knits them off.
     #[error("wale {wale} of the chart: its needle gets loops but never knits")]
     NeverKnits {
         /// The wale.
         wale: usize,
     },
+    /// A chart without a stitch that makes a loop and knits off another.
+    #[error("no stitch of the chart knits: misses and tucks alone make no cloth")]
+    NothingKnits,
     /// The system refused memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),

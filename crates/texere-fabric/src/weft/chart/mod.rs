@@ -62,7 +62,8 @@ impl Chart {
     ///
     /// **Errors**: [`ChartError::Size`], [`ChartError::Cells`] and [`ChartError::Ragged`] for the
     /// number of cells, [`ChartError::Beds`] and [`ChartError::Moved`] for a stitch that these beds
-    /// can't make, [`ChartError::NeverKnits`], and [`ChartError::OutOfMemory`].
+    /// can't make, [`ChartError::NeverKnits`], [`ChartError::NothingKnits`], and
+    /// [`ChartError::OutOfMemory`].
     pub fn new(wales: usize, beds: Beds, cells: Vec<Cell>) -> Result<Self, ChartError> {
         let rows = cells.len().checked_div(wales).unwrap_or(0);
         sized(wales, rows, cells.len())?;
@@ -311,7 +312,7 @@ impl Chart {
             }
         }
         if !knits.iter().flatten().any(|knits| *knits) {
-            return Err(ChartError::NeverKnits { wale: 1 });
+            return Err(ChartError::NothingKnits);
         }
         Ok(self)
     }

@@ -128,7 +128,7 @@ fn faults_name_row_and_column() {
         ("kk\nkb", "row 2, column 2 of the chart: this stitch needs two beds"),
         ("kt\nkm", "wale 2 of the chart: its needle gets loops but never knits"),
         (">m", "wale 2 of the chart: its needle gets loops"),
-        ("mm", "wale 1 of the chart"),
+        ("mm", "no stitch of the chart knits"),
     ] {
         assert!(fault(rows, Beds::One).starts_with(said), "{rows}: {}", fault(rows, Beds::One));
     }

@@ -1,19 +1,23 @@
 //! The course of each pass of a carrier. A pass is a row of stitches that the same carriers make in
 //! one direction. No stitch of a pass is drawn through another stitch of the pass.
+//!
+//! The program of a repeat runs several times. Each run is a round.
 
-/// A pass that is drawn through loops of another pass.
+/// Two passes, one above the other. The upper pass is drawn through loops of the lower one, or
+/// tucks on needles that hold loops of the lower one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Above {
     /// The upper pass.
     pub(super) pass: u32,
-    /// The lower pass, through whose loops the upper one is drawn.
+    /// The lower pass.
     pub(super) below: u32,
-    /// Number of rounds of the repeat from the lower pass to the upper one; 0 if both are of one
-    /// round.
+    /// Number of rounds from the lower pass to the upper one: 0 if both are of one round, 1 if the
+    /// lower one is of the round before.
     pub(super) rounds: u32,
 }
 
-/// Number of sweeps over all passes that are made to find how many courses a round adds.
+/// Number of sweeps over all passes in the estimate of the repeat's height. Each sweep stands for
+/// one more round. The estimate is the number of courses that the last sweep adds.
 const ROUNDS: u32 = 4;
 
 /// Number of sweeps over all passes after which another height of the repeat is tried.
@@ -21,10 +25,11 @@ const SWEEPS_MAX: u32 = 64;
 
 /// The course of each pass, and the number of courses of a repeat; none if nothing repeats.
 ///
-/// A pass lies one course above the highest pass that it is drawn through. A pass that is drawn
-/// through nothing lies in the course of its carrier's previous pass (`before`), and a carrier's
-/// first pass in course 0. In a repeat, loops of an earlier round lie lower by the height of the
-/// repeat for each round between. `aboves` are ordered by pass.
+/// A pass lies one course above the highest pass below it, as `aboves` has them. If no pass lies
+/// below it, it lies in the course of its carrier's previous pass (`before`). If there is no
+/// previous pass either, it lies in course 0. In a repeat, a pass of the round before counts as
+/// lower by the height of the repeat, and a pass of the round before that as lower by two heights.
+/// `aboves` are ordered by pass.
 pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -> (Vec<u32>, Option<u32>) {
     let mut courses = vec![0; before.len()];
     sweep(before, aboves, &mut courses, 0);
@@ -38,8 +43,8 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
         sweep(before, aboves, &mut courses, 0);
         added = top(&courses) - under;
     }
-    // The last height, the number of passes, always suffices: a chain of passes that comes back to
-    // its first pass has no more.
+    // The last height is the number of passes, and always suffices. The passes of one round fill at
+    // most that many courses, so that no pass of an earlier round lies above course 0.
     let heights = [added.max(1), added + 1, before.len().max(1) as u32];
     for height in heights {
         courses.fill(0);
@@ -50,8 +55,9 @@ pub(super) fn courses(before: &[Option<u32>], aboves: &[Above], repeats: bool) -
     (courses, Some(heights[2]))
 }
 
-/// Raises each pass above the passes that it is drawn through. A pass of an earlier round counts as
-/// `height` courses lower for each round between. Returns whether any pass was too low.
+/// Raises each pass above the passes that lie below it. A pass of the round before counts as
+/// `height` courses lower, one of the round before that as twice as much lower, and so on. Returns
+/// whether any pass was too low.
 fn sweep(before: &[Option<u32>], aboves: &[Above], courses: &mut [u32], height: u32) -> bool {
     let (mut changed, mut rest) = (false, aboves);
     for (pass, &previous) in before.iter().enumerate() {

@@ -71,11 +71,9 @@ fn designed(source: &Source<'_>) -> Result<Design, ReadError> {
 fn unused(file: &DesignFile, rests: bool) -> Vec<String> {
     let keys =
         [("cloth.shape", file.cloth.shape.is_some()), ("cloth.warp_crimp", file.cloth.warp_crimp.is_some())];
-    let flat = file.yarns.iter().filter(|(_, yarn)| yarn.flatness.is_some());
-    let flat = flat.map(|(name, _)| format!("yarns.{}.flatness", name.as_ref()));
-    let given = keys.into_iter().filter(|(_, given)| *given).map(|(key, _)| key.to_owned());
+    let given = keys.into_iter().filter(|(_, given)| *given && rests);
     let said = |key| format!("{key} counts for nothing in cloth at rest; with finish.settle = false it does");
-    given.chain(flat).filter(|_| rests).map(said).collect()
+    given.map(|(key, _)| said(key)).collect()
 }
 
 /// The cloth of a drawdown with the file's own threads.

@@ -51,7 +51,12 @@ impl Reader<'_> {
         let (wales, backing) = (rows.first().map_or(0, Vec::len), self.backing()?);
         let yarn = |column: usize, row: usize| of_letter[numbers[&rows[rows.len() - 1 - row][column]]];
         let chart = Chart::jacquard(wales, rows.len(), backing, yarn).map_err(refused)?;
-        let drawing = Drawing { file: source.path, legend: Legend::Yarns(backing), upside_down: false };
+        let drawing = Drawing {
+            file: source.path,
+            place: source.place("knit.chart", text.span()),
+            legend: Legend::Yarns(backing),
+            upside_down: false,
+        };
         self.charted(name, chart, yarns, drawing, warnings)
     }
 

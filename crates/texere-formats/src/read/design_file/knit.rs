@@ -17,7 +17,7 @@ use crate::read::file::file_name;
 use crate::read::knit::Knit;
 use crate::read::knitted_from::{Drawn, Legend};
 use crate::read::point_paper::{PointPaper, RowOrder};
-use crate::read::{Design, ReadError};
+use crate::read::{Design, FilePlace, ReadError};
 
 /// The greatest value of `float_max`, the number of needles that a yarn may float past without a
 /// warning.
@@ -64,6 +64,8 @@ pub(super) fn without_weaving(source: &Source<'_>, file: &DesignFile) -> Result<
 /// What a chart was read from: the text of a design file, or an image.
 pub(super) struct Drawing<'a> {
     pub(super) file: &'a Path,
+    /// The key that gives the chart.
+    pub(super) place: FilePlace,
     pub(super) legend: Legend,
     /// Whether the row on top is knitted first.
     pub(super) upside_down: bool,
@@ -96,7 +98,12 @@ impl Reader<'_> {
         let chart = Chart::parse(text.as_ref(), self.beds()?).map_err(refused)?;
         let (turn, yarns) = self.yarns_in_turn()?;
         let chart = chart.with_yarns(&turn).map_err(refused)?;
-        let drawing = Drawing { file: self.source.path, legend: Legend::Stitches, upside_down: false };
+        let drawing = Drawing {
+            file: self.source.path,
+            place: self.source.place("knit.chart", text.span()),
+            legend: Legend::Stitches,
+            upside_down: false,
+        };
         self.charted(name, chart, yarns, drawing, Vec::new())
     }
 
@@ -125,6 +132,7 @@ impl Reader<'_> {
             self.refused("knit.image", image.span(), error)
         };
         let is_yarn = |text: &String| self.yarns.thread(text).is_some();
+        let place = || source.place("knit.image", image.span());
         let (columns, rows) = (paper.ends, paper.picks);
         if meant.iter().all(is_yarn) {
             self.without_symbols("symbols in [knit.colors]")?;
@@ -132,7 +140,8 @@ impl Reader<'_> {
             let yarn = |column, row| numbers[paper.color(column, row)];
             let backing = self.backing()?;
             let chart = Chart::jacquard(columns, rows, backing, yarn).map_err(fault)?;
-            let drawing = Drawing { file: &path, legend: Legend::Yarns(backing), upside_down };
+            let drawing =
+                Drawing { file: &path, place: place(), legend: Legend::Yarns(backing), upside_down };
             self.charted(name, chart, yarns, drawing, warnings)
         } else {
             if let Some(backing) = &table.backing {
@@ -157,7 +166,7 @@ impl Reader<'_> {
             let chart = Chart::from_symbols(columns, rows, self.beds()?, symbol).map_err(fault)?;
             let (turn, yarns) = self.yarns_in_turn()?;
             let chart = chart.with_yarns(&turn).map_err(fault)?;
-            let drawing = Drawing { file: &path, legend: Legend::Stitches, upside_down };
+            let drawing = Drawing { file: &path, place: place(), legend: Legend::Stitches, upside_down };
             self.charted(name, chart, yarns, drawing, warnings)
         }
     }
@@ -171,13 +180,13 @@ impl Reader<'_> {
         drawing: Drawing<'_>,
         warnings: Vec<String>,
     ) -> Result<Design, ReadError> {
-        let mut program = chart.program().map_err(|error| self.refused("knit", 0..0, error))?;
+        let Drawing { file, place, legend, upside_down } = drawing;
+        let mut program = chart.program().map_err(|error| chart_refused(place, error))?;
         let (names, threads): (Vec<_>, Vec<_>) = yarns.into_iter().unzip();
         // The program names its carriers by the numbers of their yarns. Here they get the yarns'
         // names. Yarns that the chart does not reach have no carrier.
         program.carriers.iter_mut().zip(names).for_each(|(carrier, name)| *carrier = name);
         let knit = self.knit(self.gauge(None)?, threads)?;
-        let Drawing { file, legend, upside_down } = drawing;
         let drawn = Drawn::Cells { file: file.into(), chart, legend, upside_down };
         knit.design(self.source.path, name, program, drawn, warnings)
     }
@@ -290,9 +299,14 @@ impl Reader<'_> {
     }
 
     pub(super) fn refused(&self, field: &str, span: Range<usize>, error: ChartError) -> ReadError {
-        match error {
-            ChartError::OutOfMemory(error) => error.into(),
-            source => ReadError::Chart { place: self.source.place(field, span), source },
-        }
+        chart_refused(self.source.place(field, span), error)
+    }
+}
+
+/// The error of a chart that is given at `place`.
+fn chart_refused(place: FilePlace, error: ChartError) -> ReadError {
+    match error {
+        ChartError::OutOfMemory(error) => error.into(),
+        source => ReadError::Chart { place, source },
     }
 }

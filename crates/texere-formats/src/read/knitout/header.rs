@@ -115,8 +115,9 @@ impl<'a> Header<'a> {
     }
 
     /// The fractions of a rack at which back needles lie between front needles, so that both beds
-    /// can knit at once. The fraction is 0.25 on Shima Seiki's SWG machines, for racks below 0 as
-    /// well (-0.75), and 0.5 on other machines. If the file names no machine, both are allowed.
+    /// can knit at once. A fraction is counted up from the next lower whole number: that of the
+    /// rack -0.75 is 0.25. The fraction is 0.25 on Shima Seiki's SWG machines, and 0.5 on other
+    /// machines. If the file names no machine, both are allowed.
     pub(super) fn all_needle_racks(&self) -> &'static [f64] {
         match self.machine {
             Some(machine) if is_swg(machine) => &[0.25],
@@ -125,7 +126,8 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// The yarn in each of `carriers`. A yarn in any other carrier gives a warning.
+    /// The yarn in each of `carriers`. If other carriers have yarns, the first of them gives a
+    /// warning.
     pub(super) fn yarns_of(mut self, carriers: &[String], warnings: &mut Warnings) -> Vec<Option<String>> {
         let yarn = |carrier: &String| self.yarns.remove(carrier.as_str()).map(|(yarn, _)| kept(yarn));
         let yarns = carriers.iter().map(yarn).collect();

@@ -55,7 +55,11 @@ pub(super) fn parse(path: &Path, bytes: &[u8], lengths: &LoopLengths) -> Result<
     let text = String::from_utf8_lossy(bytes);
     if let Err(error) = std::str::from_utf8(bytes) {
         let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        warnings.once("utf-8", line, "not UTF-8, as knitout asks for; letters that are none are left out");
+        warnings.once(
+            "utf-8",
+            line,
+            "not UTF-8, as knitout asks for; bytes that make no letter are read as U+FFFD",
+        );
     }
     if let Some(at) = text.find('\r') {
         let line = text[..at].bytes().filter(|&byte| byte == b'\n').count() + 1;

@@ -52,7 +52,7 @@ const PARTS: u32 = 12;
 /// face, and from the right if it shows the back. Returns the picture's width and height in pixels.
 ///
 /// **Errors**: [`WriteError::NotPng`] if `output` does not end in `.png`,
-/// [`WriteError::ChartTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
+/// [`WriteError::LappingTooLarge`] for chains too long to be written below, [`WriteError::Spared`],
 /// [`WriteError::Io`].
 ///
 /// ```
@@ -80,7 +80,7 @@ pub fn warp_draft(
 /// Draws a warp knit's lapping diagram to `out`: the bytes that [`warp_draft`] writes to a file.
 /// Returns the picture's width and height in pixels.
 ///
-/// **Errors**: [`WriteError::ChartTooLarge`], [`WriteError::Writer`] if `out` refuses bytes.
+/// **Errors**: [`WriteError::LappingTooLarge`], [`WriteError::Writer`] if `out` refuses bytes.
 pub fn warp_draft_to(cloth: &WarpKnitted, side: Side, out: impl Write) -> Result<[u32; 2], WriteError> {
     drawn(cloth, side, |sheet| sheet.save_to(out))
 }
@@ -95,8 +95,8 @@ fn drawn(
     let sheet = drawing.sheet(side);
     let [width, height] = sheet.size;
     if width.max(height) > SIDE_MAX {
-        let [wales, courses] = drawing.size.map(|side| side as usize);
-        return Err(WriteError::ChartTooLarge { wales, courses, side: SIDE_MAX, squares: wales * courses });
+        let bars = cloth.bars().len();
+        return Err(WriteError::LappingTooLarge { bars, width, height, limit: SIDE_MAX });
     }
     save(&sheet)
 }

@@ -1,5 +1,5 @@
-//! The mode `TRIANGLES`: a byte for most triangles, which names an edge and a corner that came
-//! shortly before.
+//! The mode `TRIANGLES`: most triangles take one byte. The byte names an edge that came shortly
+//! before. It also says that the third corner is new, or names a corner that came before.
 
 use std::io::{self, Write};
 
@@ -8,8 +8,9 @@ use super::zigzag;
 /// The number of edges that a code can name.
 const EDGES: usize = 15;
 
-/// The number of newest corners among which the code of a triangle with a named edge names one. The
-/// newest corner has no code. The codes of the others are their ages, from 1 for the second newest.
+/// The code of a triangle with a named edge can name a corner by its age, which has to be less than
+/// this number: 1 for the second newest corner, 2 for the third newest, and so on. The newest
+/// corner can't be named so, because the code 0 stands for a new corner.
 const CORNERS_BESIDE_EDGE: usize = 13;
 
 /// The number of corners that the code of a triangle without a named edge can name.
@@ -76,15 +77,15 @@ impl TriangleEncoder {
             self.edges.push([a, c]);
             return Ok(());
         }
-        // If any corner is new, the first is.
+        // A triangle with a new corner is turned so that the next new corner comes first.
         let new = turned.into_iter().find(|[first, ..]| *first == self.next);
         let [a, b, c] = new.unwrap_or(triangle);
         self.next += u32::from(new.is_some());
         let others = [b, c].map(|corner| self.corner_alone(corner));
         match (new, others) {
             (Some(_), [NEW, NEW]) => codes.write_all(&[0xf0])?,
-            // Without a new first corner the others are not new either. Two zeros, which would
-            // restart the numbers of new corners, can't occur.
+            // If the first corner is not new, no other corner is. The byte of both codes is then
+            // not 0. With 0, a reader would count new corners from 0 again.
             _ => {
                 codes.write_all(&[if new.is_some() { 0xfe } else { 0xff }])?;
                 further.write_all(&[others[0] << 4 | others[1]])?;
@@ -106,7 +107,7 @@ impl TriangleEncoder {
         Ok(())
     }
 
-    /// The code of the corner of a triangle whose other two are those of a named edge.
+    /// The code of a triangle's third corner. The other two are the ends of a named edge.
     fn corner_beside_edge(&mut self, corner: u32) -> u8 {
         // The code 0 would name the newest corner, but stands for new corners.
         if let Some(age) = (1..CORNERS_BESIDE_EDGE).find(|&age| self.corners.aged(age) == corner) {
@@ -164,7 +165,7 @@ impl<T: Copy> Newest<T> {
         Self { items: [item; 16], at: 0 }
     }
 
-    /// The item before the `age` newest ones.
+    /// The item of this age: 0 for the newest item, 1 for the item before it, and so on.
     fn aged(&self, age: usize) -> T {
         self.items[self.at.wrapping_sub(age + 1) % 16]
     }

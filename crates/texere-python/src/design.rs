@@ -129,14 +129,15 @@ impl Design {
     /// ``"clear"`` yarns move until none pierces another, in at most ``passes`` passes, 1 to
     /// 1000000, of each of the two forms of settling. With ``"energy"`` yarns move until bending
     /// and contact have the least energy, which gives the knit its gauge. A knit that is pressed,
-    /// or whose lengths are free, can't rest by its energy.
+    /// or whose lengths are free, can't rest by its energy. ``hold`` is ``"courses"``, ``"wales"`` or
+    /// ``"both"``: the way along which a knit that rests by its energy keeps the size of its gauge.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True
     ///
     /// Raises ValueError for a value out of its range, and for an argument that this kind of
     /// structure does not have.
-    #[pyo3(signature = (*, settle=None, warp_tension=None, weft_tension=None, calender=None, stretch=None, press_mm=None, loop_length=None, passes=None, rest=None))]
+    #[pyo3(signature = (*, settle=None, warp_tension=None, weft_tension=None, calender=None, stretch=None, press_mm=None, loop_length=None, passes=None, rest=None, hold=None))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument by name in Python")]
     fn finished(
         &self,
@@ -149,11 +150,14 @@ impl Design {
         loop_length: Option<f32>,
         passes: Option<u32>,
         rest: Option<String>,
+        hold: Option<String>,
     ) -> PyResult<Self> {
         let mut design = (*self.design).clone();
         let is_woven = design.structure.woven().is_some();
-        if is_woven && (press_mm.or(loop_length).is_some() || passes.is_some() || rest.is_some()) {
-            return Err(PyValueError::new_err("press_mm, loop_length, passes and rest are those of a knit"));
+        let words = rest.as_ref().or(hold.as_ref());
+        if is_woven && (press_mm.or(loop_length).is_some() || passes.is_some() || words.is_some()) {
+            let message = "press_mm, loop_length, passes, rest and hold are those of a knit";
+            return Err(PyValueError::new_err(message));
         }
         let taut = warp_tension.or(weft_tension).or(calender);
         if !is_woven && (stretch.is_some() || taut.is_some()) {
@@ -182,11 +186,15 @@ impl Design {
                 Some("energy") => RestBy::Energy,
                 Some(_) => return Err(PyValueError::new_err("rest is neither 'clear' nor 'energy'")),
             },
+            hold: hold.as_deref().map(|name| strain::along("hold", name)).transpose()?.or(finish.hold),
             ..finish
         };
         let is_free = matches!(design.finish.length, Some(Length::Free { .. }));
         if design.finish.by == RestBy::Energy && (design.finish.press_mm.is_some() || is_free) {
             return Err(PyValueError::new_err("rest by energy knows no press and no free lengths"));
+        }
+        if design.finish.by != RestBy::Energy && design.finish.hold.is_some() {
+            return Err(PyValueError::new_err("only a knit that rests by its energy can be held"));
         }
         if let Some((along, by)) = stretch {
             let along = match along.as_str() {
@@ -247,7 +255,7 @@ impl Design {
         device: &str,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<StrainTest> {
-        let along = strain::along(along)?;
+        let along = strain::along("along", along)?;
         let strains = match strains {
             Some(strains) => given("strains", strains, &[None])?.values()?,
             None => STRAINS.to_vec(),

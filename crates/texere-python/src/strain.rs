@@ -42,12 +42,13 @@ impl StrainTest {
     }
 }
 
-/// The [`Along`] that is called `name`.
+/// The [`Along`] that is called `name`. `argument` is the argument that has this value.
 ///
 /// **Errors**: `ValueError` if there is none.
-pub(crate) fn along(name: &str) -> PyResult<Along> {
+pub(crate) fn along(argument: &str, name: &str) -> PyResult<Along> {
     let found = Along::ALL.into_iter().find(|along| along.name() == name);
-    found.ok_or_else(|| PyValueError::new_err(format!("along is '{name}', expected courses, wales or both")))
+    let refused = || format!("{argument} is '{name}', expected courses, wales or both");
+    found.ok_or_else(|| PyValueError::new_err(refused()))
 }
 
 #[pymethods]

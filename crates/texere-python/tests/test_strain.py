@@ -51,6 +51,19 @@ def test_refusals():
         jersey.finished(rest="energy", press_mm=0.4)
     with pytest.raises(ValueError, match="neither"):
         jersey.finished(rest="tense")
+    with pytest.raises(ValueError, match="hold is 'bias'"):
+        jersey.finished(rest="energy", hold="bias")
+    with pytest.raises(ValueError, match="can be held"):
+        jersey.finished(hold="wales")
+    with pytest.raises(ValueError, match="those of a knit"):
+        woven.finished(hold="wales")
+
+
+def test_a_held_knit_keeps_its_size():
+    rib = texere.read("designs/rib.toml").finished(rest="energy", hold="courses")
+    held = rib.rest(progress=False)
+    assert held.is_at_rest
+    assert np.ptp(held.yarns.points[:, 0]) > 0.9 * rib.size_mm[0]
 
 
 def test_a_test_can_be_cancelled():

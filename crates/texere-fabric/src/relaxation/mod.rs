@@ -9,7 +9,6 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 use texere_contact::{Clearance, Linking, clearance_with_progress};
 use texere_core::relaxation::Energy;
-use texere_core::settling::Length;
 use texere_core::{Backend, Settings, Yarns};
 
 pub use self::elastic::elastic_of_radius;
@@ -18,7 +17,7 @@ pub(crate) use self::strain::strain_repeat;
 pub use self::strain::{Along, StrainState, StrainTest};
 use crate::settling::{Look, tell, unchanged};
 use crate::weft::Gauge;
-use crate::{FabricError, FinishError, Piece, Repeat};
+use crate::{FabricError, Finish, FinishError, Piece, Repeat};
 
 /// The most steps in which yarns grow to their full thickness. Only the progress depends on this
 /// number.
@@ -62,19 +61,20 @@ impl RelaxedKnit {
 }
 
 /// Relaxes one repeat of a knit on `backend`, and places its copies with `placed`. `gauge` is the
-/// gauge of the cloth. `length` is the rule for the lengths of its yarns. If it leaves them free,
-/// the yarns keep their lengths.
+/// gauge of the cloth. `finish` says how long its yarns become, and along what it is held. If
+/// `finish` leaves lengths free, the yarns keep their lengths.
 pub(crate) fn relax_repeat(
     repeat: &Repeat,
     gauge: &Gauge,
-    length: Length,
+    finish: &Finish,
     placed: impl FnOnce(&Repeat, &Yarns, Look<'_>) -> Result<Yarns, FabricError>,
     backend: &dyn Backend,
     mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
 ) -> Result<RelaxedKnit, FinishError> {
     tell(&mut progress, 0.0)?;
     let piece = &repeat.piece;
-    let mut relaxing = Relaxing::new(piece, length, backend)?;
+    let held = finish.hold.map_or([false; 2], Along::held);
+    let mut relaxing = Relaxing::new(piece, finish.length(), held, backend)?;
     let most = f64::from(GROWING + STEPS);
     let relaxed = relaxing.rest(&mut |made| progress(RELAXED * f64::min(f64::from(made) / most, 1.0)))?;
     let compared = relaxing.compared;

@@ -35,8 +35,13 @@ pub(super) struct Relaxing<'a> {
 
 impl<'a> Relaxing<'a> {
     /// `length` is the rule for the lengths of the yarns. If it leaves them free, the yarns keep
-    /// their lengths.
-    pub(super) fn new(piece: &'a Piece, length: Length, backend: &dyn Backend) -> Result<Self, FinishError> {
+    /// their lengths. At rest the repeat keeps its length along the axes that `held` names.
+    pub(super) fn new(
+        piece: &'a Piece,
+        length: Length,
+        held: [bool; 2],
+        backend: &dyn Backend,
+    ) -> Result<Self, FinishError> {
         let elastic = elastic::of_yarns(&piece.yarns);
         let factor = if let Length::Given(factor) = length { f64::from(factor) } else { 1.0 };
         let problem = Relaxation::new(&piece.yarns, &elastic)
@@ -44,6 +49,7 @@ impl<'a> Relaxing<'a> {
             .pinned(piece.pinned.clone())
             .length(factor)
             .press(elastic::press_of(&elastic))
+            .held(held)
             .steps(STEPS);
         let plan = Arc::new(RelaxationPlan::new(&problem)?);
         let relaxer = backend.relaxer(Arc::clone(&plan))?;

@@ -25,14 +25,14 @@ const STRAINS: [f64; 2] = [-0.5, 5.0];
 /// The share of a test's progress at which the knit is at rest.
 const RESTED: f64 = 0.3;
 
-/// The way along which a knit is strained.
+/// The way along which a knit is strained, or held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
-    /// Along the courses: the cloth gets wider, and its height is free.
+    /// Along the courses: the cloth has a given width, and its height is free.
     Courses,
-    /// Along the wales: the cloth gets longer, and its width is free.
+    /// Along the wales: the cloth has a given height, and its width is free.
     Wales,
-    /// Along both by the same strain.
+    /// Along both. A test strains the cloth by the same share along both.
     Both,
 }
 
@@ -80,7 +80,7 @@ impl Along {
         }
     }
 
-    const fn held(self) -> [bool; 2] {
+    pub(super) const fn held(self) -> [bool; 2] {
         [matches!(self, Self::Courses | Self::Both), matches!(self, Self::Wales | Self::Both)]
     }
 
@@ -173,7 +173,7 @@ pub(crate) fn strain_repeat(
         return Err(FinishError::Strains { low, high });
     }
     tell(&mut progress, 0.0)?;
-    let mut relaxing = Relaxing::new(&repeat.piece, length, backend)?;
+    let mut relaxing = Relaxing::new(&repeat.piece, length, [false; 2], backend)?;
     let rested = relaxing.rest(&mut |made| progress(RESTED * f64::from(made) / f64::from(made + 300)))?;
     let rest = rested.ok_or(FinishError::Passed { strain: 0.0 })?;
     let size = rest.state.repeat;

@@ -4,7 +4,7 @@ use texere_contact::{Clearance, Linking};
 use texere_core::settling::{Length, Pass, Rest, SettlingSeen};
 use texere_core::{Origin, YarnPlace, Yarns};
 
-use crate::{BySet, FabricWarning};
+use crate::{Along, BySet, FabricWarning};
 
 /// How yarns of a knit come to rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -24,6 +24,10 @@ pub enum RestBy {
 pub struct Finish {
     /// How a knit that repeats comes to rest. It has no effect on woven cloth.
     pub by: RestBy,
+    /// Along what a knit that comes to rest by its energy keeps its gauge, as a cloth does that is
+    /// stretched out to dry. Held along its courses, it keeps the distance of its wales. With `None`
+    /// wales and courses follow from the energy.
+    pub hold: Option<Along>,
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
     /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
     /// a length for some loop. A warp knit gets the lengths of its run-ins, and keeps its lengths
@@ -52,11 +56,12 @@ impl Finish {
 }
 
 impl Default for Finish {
-    /// The structure's own lengths, no press, at most 250 passes of each form, no record, and
+    /// The structure's own lengths, no hold, no press, at most 250 passes of each form, no record, and
     /// relaxed woven cloth.
     fn default() -> Self {
         Self {
             by: RestBy::Contact,
+            hold: None,
             length: None,
             press_mm: None,
             passes: 250,

@@ -87,9 +87,9 @@ impl WarpKnitted {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RelaxedKnit, FinishError> {
         let repeat = self.repeat_of_energy(tension)?;
-        let length = self.finish_of(&repeat, finish).length();
+        let finish = self.finish_of(&repeat, finish);
         let placed = |repeat: &Repeat, yarns: &Yarns, look: Look<'_>| self.placed(repeat, yarns, look);
-        relax_repeat(&repeat, self.gauge(), length, placed, backend, progress)
+        relax_repeat(&repeat, self.gauge(), &finish, placed, backend, progress)
     }
 
     /// The repeat that relaxes.

@@ -60,9 +60,9 @@ impl Knitted {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RelaxedKnit, FinishError> {
         let repeat = self.repeat_of_energy(tension)?;
-        let length = self.finish_of(&repeat, finish).length();
+        let finish = self.finish_of(&repeat, finish);
         let placed = |repeat: &Repeat, yarns: &Yarns, look: Look<'_>| self.placed(repeat, yarns, look);
-        let mut relaxed = relax_repeat(&repeat, self.gauge(), length, placed, backend, progress)?;
+        let mut relaxed = relax_repeat(&repeat, self.gauge(), &finish, placed, backend, progress)?;
         let measures = self.clone().with_gauge(relaxed.gauge).measured(&relaxed.yarns);
         relaxed.gauge.loop_length_mm = measures.knit.map(|knit| knit.loop_length_mm);
         Ok(relaxed)

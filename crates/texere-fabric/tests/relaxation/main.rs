@@ -21,7 +21,7 @@ use texere_cpu::{ParallelBackend, SerialBackend};
 use texere_fabric::warp::{Bar, Chain, WarpKnitted};
 use texere_fabric::weft::{Beds, Chart, Gauge, KnitYarn, Knitted, Machine};
 use texere_fabric::{
-    FabricError, Finish, FinishError, Finished, Piece, RelaxedKnit, RestBy, Structure, Verdict,
+    Along, FabricError, Finish, FinishError, Finished, Piece, RelaxedKnit, RestBy, Structure, Verdict,
     elastic_of_radius,
 };
 
@@ -332,6 +332,34 @@ fn jersey_forgets_the_gauge_of_its_needles() {
     for [one, other] in [[wide.wale_mm, narrow.wale_mm], [wide.course_mm, narrow.course_mm]] {
         assert!((one / other - 1.0).abs() < 0.01, "{wide:?} {narrow:?}");
     }
+}
+
+/// A knit that is held along its courses keeps its width, and gets as high as a test of strain says
+/// of the knit that is stretched to this width. Held along both, it keeps its size.
+#[test]
+fn a_held_knit_keeps_its_gauge() {
+    let length = 2.0 * RADIUS * 20.0;
+    let free = at_rest(&Structure::Weft(slack("k", 20.0))).gauge;
+    let wide = Gauge { loop_length_mm: Some(length), ..Gauge::new(1.15 * free.wale_mm, free.course_mm) };
+    let structure = Structure::Weft(knit("k", wide));
+    let device = ParallelBackend::open().unwrap();
+    let on = |_| ControlFlow::Continue(());
+    let held = |along: Along| {
+        let finish = Finish { by: RestBy::Energy, hold: Some(along), ..Finish::default() };
+        let finished = structure.settle(&finish, 0.0, &device, on).unwrap();
+        let Finished::Relaxed(relaxed) = finished else { panic!("a knit at rest by its energy") };
+        assert!(relaxed.balanced && relaxed.is_linked(), "{relaxed:?}");
+        relaxed.gauge
+    };
+    let kept = |own: f64, gauge: f64| (own / gauge - 1.0).abs() < 1e-6;
+    let (courses, wales, both) = (held(Along::Courses), held(Along::Wales), held(Along::Both));
+    assert!(kept(courses.wale_mm, wide.wale_mm) && !kept(courses.course_mm, wide.course_mm), "{courses:?}");
+    assert!(kept(wales.course_mm, wide.course_mm) && !kept(wales.wale_mm, wide.wale_mm), "{wales:?}");
+    assert!(kept(both.wale_mm, wide.wale_mm) && kept(both.course_mm, wide.course_mm), "{both:?}");
+    let strains = (Along::Courses, &[0.15][..]);
+    let test = structure.strain_test(&Finish::default(), 0.0, strains, &device, on).unwrap();
+    let stretched = free.course_mm * (1.0 + test.states[1].strain[1]);
+    assert!((courses.course_mm / stretched - 1.0).abs() < 0.01, "{courses:?}, stretched {stretched}");
 }
 
 /// Rib draws in until the wales of its face lie side by side, and garter stitch shortens.

@@ -3,7 +3,7 @@
 use texere_core::Section;
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{BySet, Crimp, Finish, JamReport, RestBy, Shape, Stretch, Woven};
+use texere_fabric::{Along, BySet, Crimp, Finish, JamReport, RestBy, Shape, Stretch, Woven};
 use texere_formats::{Design, ReadError, read};
 
 use crate::read_file;
@@ -188,6 +188,11 @@ fn yarns_settle_as_the_finish_table_says() {
     assert_eq!(finished(JERSEY, "length = 1.25\n").1, of(Length::Given(1.25)));
     let energy = Finish { by: RestBy::Energy, ..Finish::default() };
     assert_eq!(finished(JERSEY, "rest = \"energy\"\n"), (true, energy));
+    for along in Along::ALL {
+        let held = Finish { hold: Some(along), ..energy };
+        let table = format!("rest = \"energy\"\nhold = \"{}\"\n", along.name());
+        assert_eq!(finished(JERSEY, &table), (true, held));
+    }
     assert_eq!(finished(JERSEY, "rest = \"clear\"\n"), (true, Finish::default()));
     let long = Finish { length: Some(Length::Given(1.25)), ..energy };
     assert_eq!(finished(JERSEY, "rest = \"energy\"\nlength = 1.25\n").1, long);
@@ -226,6 +231,10 @@ fn a_finish_that_can_not_be_is_refused_with_its_line() {
     refused(JERSEY, "rest = \"well\"\n", &["line 7", "finish.rest", "well", "\"clear\" or \"energy\""]);
     refused(JERSEY, &format!("{energy}{free}"), &["line 8", "finish.length", "free", "\"clear\""]);
     refused(JERSEY, &format!("{energy}press = 1.0\n"), &["line 8", "finish.press", "only with", "\"clear\""]);
+    let held = format!("{energy}hold = \"tight\"\n");
+    refused(JERSEY, &held, &["line 8", "finish.hold", "tight", "\"courses\", \"wales\" or \"both\""]);
+    refused(JERSEY, "hold = \"wales\"\n", &["line 7", "finish.hold", "only with finish.rest = \"energy\""]);
+    refused(DENIM, "hold = \"wales\"\n", &["line 20", "finish.hold", "only in a knit"]);
     refused(DENIM, energy, &["line 20", "finish.rest", "only in a knit"]);
     refused(DENIM, "presses = 1.0\n", &["line 20", "presses", "press"]);
     refused(DENIM, "calender = 11\n", &["line 20", "finish.calender", "11", "0", "10"]);

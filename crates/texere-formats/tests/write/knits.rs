@@ -7,7 +7,7 @@ use image::{Rgb, RgbImage};
 use texere_core::settling::Length;
 use texere_core::{Material, Section};
 use texere_fabric::weft::{Chart, Gauge, KnitYarn, Knitted, Machine};
-use texere_fabric::{Finish, Relief, RestBy, Structure, Thread, Weave, Woven, WovenDesign};
+use texere_fabric::{Along, Finish, Relief, RestBy, Structure, Thread, Weave, Woven, WovenDesign};
 use texere_formats::{Design, ReadError, WriteError, read_from, write};
 
 use crate::designs::again;
@@ -270,6 +270,19 @@ fn what_rest_by_energy_does_not_know_is_left_out() {
     let finish = ["finish.length = \"free\", which", "finish.press, which"];
     assert!(finish.iter().all(|key| left_out.iter().any(|line| line.starts_with(key))), "{left_out:?}");
     assert_eq!(read.finish, Finish { by: RestBy::Energy, ..Finish::default() });
+}
+
+#[test]
+fn the_way_along_which_a_knit_is_held_is_written() {
+    let mut design = from_text("a.toml", CHART).unwrap();
+    for along in Along::ALL {
+        design.finish = Finish { by: RestBy::Energy, hold: Some(along), ..Finish::default() };
+        check_toml(&design);
+    }
+    design.finish.by = RestBy::Contact;
+    let (read, left_out, _) = as_toml(&design);
+    assert!(left_out.iter().any(|line| line.starts_with("finish.hold, which")), "{left_out:?}");
+    assert_eq!(read.finish, Finish::default());
 }
 
 #[test]

@@ -97,6 +97,7 @@ class Design:
         loop_length: float | None = None,
         passes: int | None = None,
         rest: Literal["clear", "energy"] | None = None,
+        hold: Literal["courses", "wales", "both"] | None = None,
     ) -> Design: ...
     def rest(self, device: str = "auto", progress: bool | Callable[[float], object] | None = None) -> Cloth: ...
     def test(

@@ -2,7 +2,7 @@
 
 use texere_core::crossings::Set;
 use texere_core::settling::Length;
-use texere_fabric::{BySet, Finish, RestBy, Stretch};
+use texere_fabric::{Along, BySet, Finish, RestBy, Stretch};
 use toml::Spanned;
 
 use super::any::Any;
@@ -17,6 +17,7 @@ impl FinishTable {
     pub(super) fn read(&self, source: &Source<'_>, woven: bool) -> Result<(Option<bool>, Finish), ReadError> {
         let knits = [
             ("finish.rest", &self.rest),
+            ("finish.hold", &self.hold),
             ("finish.length", &self.length),
             ("finish.tension", &self.tension),
             ("finish.press", &self.press),
@@ -34,7 +35,7 @@ impl FinishTable {
                 "only in a knit: woven cloth has warp_tension, weft_tension, calender, stretch_warp and stretch_weft",
             )
         } else {
-            (&wovens[..], "only in woven cloth: a knit has rest, length, tension and press")
+            (&wovens[..], "only in woven cloth: a knit has rest, hold, length, tension and press")
         };
         if let Some((field, value)) = others.iter().find_map(|(field, value)| Some((field, value.as_ref()?)))
         {
@@ -53,6 +54,7 @@ impl FinishTable {
         let [warp, weft, calender, ..] = wovens;
         let mut finish = Finish {
             by: self.by(source)?,
+            hold: self.hold(source)?,
             length: self.length(source)?,
             taut: BySet { warp: times(warp)?, weft: times(weft)? },
             calender: times(calender)?,
@@ -85,6 +87,19 @@ impl FinishTable {
             }
             _ => Ok(RestBy::Energy),
         }
+    }
+
+    /// Along what a knit is held while it comes to rest by its energy, or none if the table does not
+    /// say.
+    fn hold(&self, source: &Source<'_>) -> Result<Option<Along>, ReadError> {
+        let Some(given) = &self.hold else { return Ok(None) };
+        let field = "finish.hold";
+        if self.by(source)? != RestBy::Energy {
+            return Err(source.odd(field, given, "only with finish.rest = \"energy\""));
+        }
+        let named = |along: &Along| given.as_ref().text() == Some(along.name());
+        let found = Along::ALL.into_iter().find(named);
+        found.map(Some).ok_or_else(|| source.odd(field, given, "\"courses\", \"wales\" or \"both\""))
     }
 
     /// How woven cloth is stretched, or none if the table does not say.

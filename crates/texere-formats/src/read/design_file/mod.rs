@@ -100,12 +100,13 @@
 //! | `image`, `rows`, `colors` | of a Jacquard bar: a pixel of the image is a guide at one round of the chain, and its colour says by how many needles the laps are displaced: `"0-0/1-1"` |
 //!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]).
-//! `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
+//! `rest`, `hold`, `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
 //!
 //! | key | value |
 //! |---|---|
 //! | `settle` | whether yarns settle at all; `true` if not given |
 //! | `rest` | of knits: `"clear"`, or `"energy"` for the least energy of bending and contact ([`RestBy`](texere_fabric::RestBy)); `"clear"` if not given |
+//! | `hold` | of knits that rest by their energy: `"courses"`, `"wales"` or `"both"`, the way along which the cloth keeps the size of its gauge ([`Along`](texere_fabric::Along)) |
 //! | `length` | `"held"`, `"free"`, or a number: how many times its length each yarn is to have ([`Length`]); if not given, as loop lengths or run-ins ask for, see [`Finish`] |
 //! | `tension` | with `length = "free"`: what draws yarns in, 0 to 0.1; 0 if not given |
 //! | `press` | the distance of two plates that press the cloth while its yarns settle, mm |

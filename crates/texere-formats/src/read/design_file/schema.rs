@@ -115,6 +115,7 @@ tables! {
     FinishTable {
         settle: Option<Spanned<Any>>,
         rest: Option<Spanned<Any>>,
+        hold: Option<Spanned<Any>>,
         press: Option<Spanned<Any>>,
         tension: Option<Spanned<Any>>,
         length: Option<Spanned<Any>>,

@@ -19,7 +19,7 @@ pub(super) struct Finished {
 
 impl Finished {
     pub(super) fn new(design: &Design) -> Self {
-        let Finish { by, length, press_mm, passes, record, taut, calender } = design.finish;
+        let Finish { by, hold, length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
         let times = [
             ("warp_tension", taut.warp, usual.taut.warp),
@@ -37,6 +37,7 @@ impl Finished {
         }
         let unsaid = [
             (by != usual.by, "finish.rest, which only knits have"),
+            (hold != usual.hold, "finish.hold, which only knits have"),
             (length != usual.length, "finish.length, which only knits have"),
             (press_mm != usual.press_mm, "finish.press, which only knits have"),
             (passes != usual.passes, "the most passes of settling"),

@@ -24,9 +24,10 @@ pub(super) struct KnitFinish {
 
 impl KnitFinish {
     pub(super) fn new(design: &Design) -> Self {
-        let Finish { by, length, press_mm, passes, record, taut, calender } = design.finish;
+        let Finish { by, hold, length, press_mm, passes, record, taut, calender } = design.finish;
         let usual = Finish::default();
-        // Beside `rest = "energy"`, a reader refuses `press` and `length = "free"`.
+        // Beside `rest = "energy"`, a reader refuses `press` and `length = "free"`. Without it, a
+        // reader refuses `hold`.
         let by_energy = by == RestBy::Energy;
         let is_free = matches!(length, Some(Length::Free { .. }));
         let mut keys = match length {
@@ -41,6 +42,7 @@ impl KnitFinish {
         };
         if by_energy {
             keys.push(("rest", Setting::Word("energy")));
+            keys.extend(hold.map(|along| ("hold", Setting::Word(along.name()))));
         }
         keys.extend(press_mm.filter(|_| !by_energy).map(|mm| ("press", Setting::Number(mm))));
         let unsaid = [
@@ -53,6 +55,7 @@ impl KnitFinish {
             ),
             (by_energy && is_free, "finish.length = \"free\", which rest by energy does not know"),
             (by_energy && press_mm.is_some(), "finish.press, which rest by energy does not know"),
+            (!by_energy && hold.is_some(), "finish.hold, which only rest by energy knows"),
             (passes != usual.passes, "the most passes of settling"),
             (record != usual.record, "whether a record of settling is kept"),
         ];

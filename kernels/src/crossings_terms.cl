@@ -21,7 +21,8 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, its least area, and the press.
+// Adds the terms of the section: its shape, its area, its least area, the press, and what
+// holds the thread in its place.
 void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const ThreadRow *thread) {
     float radius = thread->radius;
     float wide = lie.z / radius;
@@ -40,7 +41,8 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const Thr
         add_own(block, CROSSINGS_SOLID * cloth->params->penalty, 1.0f, fmin(room, 0.0f), slopes);
     }
     float press = CROSSINGS_PRESS * cloth->params->press * 4.0f * radius * radius;
-    add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
+    float hold = thread->freedom > 0.0f ? 0.0f : CROSSINGS_HOLD;
+    add_alone(block, (float4)(hold, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
 }
 
 // Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns

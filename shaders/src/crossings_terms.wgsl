@@ -24,7 +24,8 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, its least area, and the press.
+// Adds the terms of the section: its shape, its area, its least area, the press, and what
+// holds the thread in its place.
 fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: ThreadRow) {
     let radius = thread.radius;
     let wide = lie.z / radius;
@@ -43,7 +44,8 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: Thre
         add_own(block, CROSSINGS_SOLID * cloth.penalty, 1.0, min(room, 0.0), slopes);
     }
     let press = CROSSINGS_PRESS * cloth.press * 4.0 * radius * radius;
-    add_alone(block, vec4(0.0, press, 0.0, 0.0), 1.0, lie, 1.0);
+    let hold = select(CROSSINGS_HOLD, 0.0, thread.freedom > 0.0);
+    add_alone(block, vec4(hold, press, 0.0, 0.0), 1.0, lie, 1.0);
 }
 
 // Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns

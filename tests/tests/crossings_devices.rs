@@ -135,6 +135,7 @@ fn cloths() -> Vec<(&'static str, Crossings)> {
         // 200 passes.
         ("a piece of plain", even([0.2, 0.3], [0.15; 2], [24, 20], plain).repeats(false, false).passes(200)),
         ("uneven", uneven(37, 29)),
+        ("uneven, held in place", uneven(15, 10).held()),
         ("uneven, ends repeat", uneven(12, 9).repeats(true, false)),
         ("uneven, picks repeat", uneven(11, 14).repeats(false, true)),
     ]

@@ -35,6 +35,7 @@
 //! # Ok::<(), texere_fabric::FabricError>(())
 //! ```
 
+mod along;
 mod diagnosis;
 mod error;
 mod fibre;
@@ -54,6 +55,7 @@ mod woven;
 mod yarn_check;
 mod yarn_size;
 
+pub use along::Along;
 pub use diagnosis::{
     ClothClearance, ClothFault, Crossing, Cure, Diagnosis, Faults, Jams, Pieces, Remedy, StitchPlace,
     ThreadBend, ThreadContact, ThreadCrowd, ThreadDrawn, ThreadPlace, Verdict,
@@ -63,7 +65,7 @@ pub use fibre::{COTTON_LEAST_AREA, Fibre, PACKING, PACKING_LIMITS};
 pub use look_alike::hyphen_look_alike;
 pub(crate) use look_alike::slash_look_alike;
 pub use measures::{Cover, KnitMeasures, Measures, lengths_by_material, thickness_mm, weight_g};
-pub use relaxation::{Along, RelaxedKnit, StrainState, StrainTest, elastic_of_radius};
+pub use relaxation::{RelaxedKnit, StrainState, StrainTest, elastic_of_radius};
 pub use settling::{Finish, FinishError, Finished, Piece, Press, Repeat, RestBy, Settled, settle};
 pub use structure::Structure;
 pub use tile::Tile;

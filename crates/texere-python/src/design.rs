@@ -129,8 +129,9 @@ impl Design {
     /// ``"clear"`` yarns move until none pierces another, in at most ``passes`` passes, 1 to
     /// 1000000, of each of the two forms of settling. With ``"energy"`` yarns move until bending
     /// and contact have the least energy, which gives the knit its gauge. A knit that is pressed,
-    /// or whose lengths are free, can't rest by its energy. ``hold`` is ``"courses"``, ``"wales"`` or
-    /// ``"both"``: the way along which a knit that rests by its energy keeps the size of its gauge.
+    /// or whose lengths are free, can't rest by its energy. ``hold`` is the way along which a knit
+    /// that rests by its energy keeps the size of its gauge: ``"courses"``, ``"wales"`` or
+    /// ``"both"``.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True

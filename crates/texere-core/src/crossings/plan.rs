@@ -121,7 +121,7 @@ impl CrossingsPlan {
         // stiffness, so that penalties stay the strongest terms. Tension and press are divided by
         // the same number, because they have less effect on stiffer threads.
         let stiffest = problem.threads.iter().flatten().map(|thread| thread.stiffness).fold(1.0, f32::max);
-        let row = |set: usize| rows(&problem.threads[set], unit, stiffest, HEIGHT * levels);
+        let row = |set: usize| rows(&problem.threads[set], unit, stiffest, HEIGHT * levels, problem.held);
         Ok(Self {
             unit,
             ups: copied("the drawdown", &problem.ups)?,

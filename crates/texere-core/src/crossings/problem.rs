@@ -50,6 +50,7 @@ pub struct Crossings {
     pub(crate) repeats: [bool; 2],
     pub(crate) tension: [f32; 2],
     pub(crate) press: f32,
+    pub(crate) held: bool,
     pub(crate) passes: u32,
 }
 
@@ -65,6 +66,7 @@ impl Crossings {
             repeats: [true; 2],
             tension: [1.0; 2],
             press: 1.0,
+            held: false,
             passes: 400,
         }
     }
@@ -97,6 +99,13 @@ impl Crossings {
     #[must_use]
     pub const fn press(mut self, press: f32) -> Self {
         self.press = press;
+        self
+    }
+
+    /// Holds all threads in their places: no thread shifts sideways. By default threads shift.
+    #[must_use]
+    pub const fn held(mut self) -> Self {
+        self.held = true;
         self
     }
 

@@ -37,7 +37,8 @@ pub struct Row {
     pub shape: f32,
     /// The least area of the thread's section, as a share of its area.
     pub least_area: f32,
-    /// The largest shift to either side.
+    /// The largest shift to either side. It is 0 for threads that are
+    /// [held](super::Crossings::held).
     pub freedom: f32,
     /// The largest height of the thread above or below the middle of the cloth.
     pub height: f32,
@@ -88,6 +89,7 @@ pub(super) fn rows(
     unit: f32,
     stiffest: f32,
     height: f32,
+    held: bool,
 ) -> Result<Vec<Row>, CrossingsError> {
     let mut rows = room("threads", threads.len())?;
     let mut before = threads.last().map_or(unit, |thread| thread.pitch) / unit;
@@ -101,7 +103,7 @@ pub(super) fn rows(
             aspect: thread.flatness * (1.0 + (ASPECT - 1.0) / thread.firmness),
             shape: SHAPE * thread.firmness * thread.stiffness / stiffest,
             least_area: thread.least_area,
-            freedom: most.min(share * gap.min(before)),
+            freedom: if held { 0.0 } else { most.min(share * gap.min(before)) },
             height,
         });
         before = gap;

@@ -144,13 +144,13 @@ fn gradients_are_the_energys() {
     // levels change by place.
     let kinds = [[true, false], [false, false], [true, true]];
     let layered = layers.into_iter().flat_map(|levels| kinds.map(|kind| (levels, kind)));
-    let problems = [true, false].map(|repeats| (uneven(5, 6, repeats), [1.0, 2.4], 0..5)).into_iter().chain(
-        layered.map(|(levels, [repeats, is_figured])| {
-            let both = levels[0] == levels[1];
-            let problem = uneven_layers([6, 6], repeats, levels, is_figured);
-            (problem, [0.2, 1.9], if both { 5..8 } else { 6..8 })
-        }),
-    );
+    let held = (uneven(5, 6, true).held(), [1.0, 2.4], 0..5);
+    let single = [true, false].map(|repeats| (uneven(5, 6, repeats), [1.0, 2.4], 0..5));
+    let problems = single.into_iter().chain([held]).chain(layered.map(|(levels, [repeats, is_figured])| {
+        let both = levels[0] == levels[1];
+        let problem = uneven_layers([6, 6], repeats, levels, is_figured);
+        (problem, [0.2, 1.9], if both { 5..8 } else { 6..8 })
+    }));
     for (problem, shape, wanted) in problems {
         let plan = CrossingsPlan::new(&problem).unwrap();
         let mut seed = 5;

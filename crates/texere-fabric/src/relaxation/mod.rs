@@ -14,10 +14,10 @@ use texere_core::{Backend, Settings, Yarns};
 pub use self::elastic::elastic_of_radius;
 use self::relaxing::{Relaxing, STEPS};
 pub(crate) use self::strain::strain_repeat;
-pub use self::strain::{Along, StrainState, StrainTest};
+pub use self::strain::{StrainState, StrainTest};
 use crate::settling::{Look, tell, unchanged};
 use crate::weft::Gauge;
-use crate::{FabricError, Finish, FinishError, Piece, Repeat};
+use crate::{Along, FabricError, Finish, FinishError, Piece, Repeat};
 
 /// The most steps in which yarns grow to their full thickness. Only the progress depends on this
 /// number.

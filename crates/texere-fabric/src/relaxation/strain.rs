@@ -12,7 +12,7 @@ use super::gauge_at;
 use super::relaxing::Relaxing;
 use crate::settling::tell;
 use crate::weft::Gauge;
-use crate::{FinishError, Repeat, thickness_mm};
+use crate::{Along, FinishError, Repeat, thickness_mm};
 
 /// The longest way from one state to the next, as a share of the cloth's size at rest. Yarns that
 /// are stretched further at once press so hard that the search takes more steps. With half the
@@ -24,17 +24,6 @@ const STRAINS: [f64; 2] = [-0.5, 5.0];
 
 /// The share of a test's progress at which the knit is at rest.
 const RESTED: f64 = 0.3;
-
-/// The way along which a knit is strained, or held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
-    /// Along the courses: the cloth has a given width, and its height is free.
-    Courses,
-    /// Along the wales: the cloth has a given height, and its width is free.
-    Wales,
-    /// Along both. A test strains the cloth by the same share along both.
-    Both,
-}
 
 /// A strained state of a knit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,30 +53,6 @@ pub struct StrainTest {
     pub repeat_mm: [f64; 2],
     /// The states, by rising strain.
     pub states: Vec<StrainState>,
-}
-
-impl Along {
-    /// All ways.
-    pub const ALL: [Self; 3] = [Self::Courses, Self::Wales, Self::Both];
-
-    /// `courses`, `wales` or `both`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Courses => "courses",
-            Self::Wales => "wales",
-            Self::Both => "both",
-        }
-    }
-
-    pub(super) const fn held(self) -> [bool; 2] {
-        [matches!(self, Self::Courses | Self::Both), matches!(self, Self::Wales | Self::Both)]
-    }
-
-    /// The axis along which force and strain are compared.
-    const fn axis(self) -> usize {
-        matches!(self, Self::Wales) as usize
-    }
 }
 
 impl StrainTest {

@@ -24,9 +24,9 @@ pub enum RestBy {
 pub struct Finish {
     /// How a knit that repeats comes to rest. It has no effect on woven cloth.
     pub by: RestBy,
-    /// Along what a knit that comes to rest by its energy keeps its gauge, as a cloth does that is
-    /// stretched out to dry. Held along its courses, it keeps the distance of its wales. With `None`
-    /// wales and courses follow from the energy.
+    /// The way along which a knit that comes to rest by its energy keeps its gauge, as cloth that
+    /// is pinned out to dry. Held along its courses, it keeps the distance of its wales. With
+    /// `None` wales and courses follow from the energy.
     pub hold: Option<Along>,
     /// Whether yarns keep their lengths, get other lengths, or are free. With `None` a weft knit
     /// gets the loop lengths of its program or its gauge, and its lengths are free if neither gives
@@ -56,8 +56,8 @@ impl Finish {
 }
 
 impl Default for Finish {
-    /// The structure's own lengths, no hold, no press, at most 250 passes of each form, no record, and
-    /// relaxed woven cloth.
+    /// The structure's own lengths, no hold, no press, at most 250 passes of each form, no record,
+    /// and relaxed woven cloth.
     fn default() -> Self {
         Self {
             by: RestBy::Contact,

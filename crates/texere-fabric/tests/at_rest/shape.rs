@@ -129,6 +129,33 @@ fn neighbours_give_way_to_a_thick_end() {
     assert!(gaps[4] > 1.05 * gaps[1] && gaps[5] > 1.05 * gaps[1], "{gaps:?}");
 }
 
+/// Three ends of hard yarn and one of soft yarn, so dense that the hard ones would crowd beside the
+/// soft one, and picks would pierce them where they change sides between two of them. The cloth
+/// rests clear if its threads stay in their places.
+#[test]
+fn dense_cloth_of_hard_and_soft_ends_is_clear() {
+    let radius = (diameter_mm(tex_from_cotton_count(7.0), COTTON_DENSITY) / 2.0) as f32;
+    let firmness = firmness_from_twist(twist_from_turns_per_m(500.0), radius);
+    let soft = |pitch: f64| Thread::new(pitch, 0.15);
+    let pitch = |per_inch: f64| 25.4 / per_inch;
+    let ends = |per_inch: f64| {
+        let hard = Thread { firmness, ..Thread::new(pitch(per_inch), radius) };
+        (0..16).map(|end| if end % 4 == 3 { soft(pitch(per_inch)) } else { hard }).collect()
+    };
+    let twill = |end: usize, pick: usize| (end + 16 - pick) % 4 < 2;
+    let broad = |end: usize, pick: usize| (end + 16 - pick) % 4 < 3;
+    for (name, up, per_inch) in
+        [("2/2", &twill as &dyn Fn(usize, usize) -> bool, 56.0), ("3/1", &broad, 60.0)]
+    {
+        let cloth = woven(up, ends(per_inch), vec![soft(0.45); 16]);
+        let rest = rested(&cloth);
+        let clearance = Surfaces::new(&rest.yarns).clearance();
+        println!("{name}: {clearance:.4}");
+        assert!(clearance >= 0.985, "{name}: {clearance}");
+        assert!(least_drawn(&cloth, &rest.yarns) >= COTTON_LEAST_AREA - 2e-3, "{name}");
+    }
+}
+
 /// Two ends that work as one close up, because the picks are taut where they change sides. So do
 /// the picks of a hopsack.
 #[test]

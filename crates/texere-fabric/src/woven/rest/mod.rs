@@ -2,6 +2,7 @@
 
 mod certificate;
 mod ease;
+mod held;
 mod nesting;
 mod path;
 mod plies;
@@ -170,18 +171,22 @@ impl Woven {
     }
 
     /// The cloth's crossings at rest, before surfaces are measured, and the report on how they came
-    /// to rest.
+    /// to rest. If `held`, no thread shifts sideways.
     fn resting(
         &self,
         finish: &Finish,
         tension: f32,
         backend: &dyn Backend,
+        held: bool,
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(RestingRepeat, CrossingsRest), FinishError> {
         check_tension(tension).map_err(FabricError::from)?;
         let mut problem = Problem::new(self);
         let BySet { warp, weft } = finish.taut;
         problem.crossings = problem.crossings.tension(warp, weft).press(finish.calender);
+        if held {
+            problem.crossings = problem.crossings.held();
+        }
         let plan = Arc::new(CrossingsPlan::new(&problem.crossings)?);
         let mut settler = backend.crossings_settler(Arc::clone(&plan))?;
         let (mut made, mut stopped) = (0.0, false);

@@ -55,19 +55,25 @@ impl Woven {
         mut progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<(Cow<'_, Self>, Option<f32>, Certified), FinishError> {
         let presses = self.presses();
-        let (mut tried, count) = (0.0, presses.len() as f64);
+        let (mut tried, count) = (0.0, presses.len() as f64 + f64::from(u8::from(self.is_mixed())));
         let mut presses = presses.into_iter().peekable();
         loop {
             let press = presses.next().flatten();
             let is_last = presses.peek().is_none();
             let cloth = press.map_or(Cow::Borrowed(self), |valley| Cow::Owned(self.filled(valley)));
             let mut share = |done: f64| progress((tried + done) / count);
-            let (resting, rest) = cloth.resting(finish, tension, backend, |done| share(SETTLED * done))?;
+            let (resting, rest) =
+                cloth.resting(finish, tension, backend, false, |done| share(SETTLED * done))?;
             // Thinning makes threads denser. If plies are solid before it, the attempt has failed.
             if is_last || !resting.are_plies_solid(&cloth) {
                 let thinned = |done| share(SETTLED + (1.0 - SETTLED) * done);
                 let certified = cloth.certified(resting, rest, thinned)?;
                 let is_clear = is_clear(certified.clearance[1], certified.bend);
+                if is_last && !is_clear && cloth.is_mixed() {
+                    let held = |done| progress((count - 1.0 + done) / count);
+                    let certified = cloth.clearer_if_held(certified, finish, tension, backend, held)?;
+                    return Ok((cloth, press, certified));
+                }
                 if is_last || is_clear && !certified.resting.are_plies_solid(&cloth) {
                     return Ok((cloth, press, certified));
                 }

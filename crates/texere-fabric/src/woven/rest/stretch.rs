@@ -140,7 +140,7 @@ impl Woven {
         backend: &dyn Backend,
         progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<BySet<f64>, FinishError> {
-        let (resting, _) = self.resting(finish, tension, backend, progress)?;
+        let (resting, _) = self.resting(finish, tension, backend, false, progress)?;
         let piece = crop(self, resting.repeat())?;
         let lengths = lengths_mm(&resting.yarns(&piece)?);
         let (size, ends) = (piece.size_mm(), piece.warp().len());

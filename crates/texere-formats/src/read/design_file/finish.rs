@@ -89,8 +89,8 @@ impl FinishTable {
         }
     }
 
-    /// Along what a knit is held while it comes to rest by its energy, or none if the table does not
-    /// say.
+    /// The way along which a knit is held while it comes to rest by its energy. None if the table
+    /// does not say.
     fn hold(&self, source: &Source<'_>) -> Result<Option<Along>, ReadError> {
         let Some(given) = &self.hold else { return Ok(None) };
         let field = "finish.hold";

@@ -100,7 +100,8 @@
 //! | `image`, `rows`, `colors` | of a Jacquard bar: a pixel of the image is a guide at one round of the chain, and its colour says by how many needles the laps are displaced: `"0-0/1-1"` |
 //!
 //! Every key of `[finish]`, which says how yarns come to rest ([`Finish`], [`Structure::settle`]).
-//! `rest`, `hold`, `length`, `tension` and `press` are for knits, the rows below them for woven cloth:
+//! `rest`, `hold`, `length`, `tension` and `press` are for knits, the rows below them for woven
+//! cloth:
 //!
 //! | key | value |
 //! |---|---|

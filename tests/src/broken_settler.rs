@@ -22,7 +22,7 @@ pub enum SettlingSabotage {
     LostShift,
     /// Lists of neighbours are never renewed.
     StaleList,
-    /// A point's pulls begin one interval too early.
+    /// A point gathers its pulls from the wrong intervals: each lies one too early on the yarn.
     WrongSlot,
 }
 

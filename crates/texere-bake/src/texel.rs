@@ -64,7 +64,8 @@ pub(crate) struct Look<'a> {
     subdivisions: usize,
     /// The sign of x and z: 1 for the face, and -1 for the back, which is turned over.
     over: f32,
-    /// The number of each yarn, its colour, and α², where α is the width of its highlight.
+    /// For each yarn: the place of its origin and material in `numbered`, its colour, and α², where
+    /// α is the width of its highlight.
     each: Vec<(u32, Vec3, f32)>,
     /// The origin and material that each number stands for.
     numbered: Vec<(Origin, u32)>,
@@ -90,7 +91,7 @@ impl<'a> Look<'a> {
                 numbered.len() as u32 - 1
             });
             let color = Vec3::from(yarns.materials()[yarn.material as usize].linear_rgb());
-            // The square of the width α is twice the mean square slope.
+            // `surface_width` is the root of the mean square slope, and α² is twice that mean.
             (number, color, 2.0 * surface_width(yarn).powi(2))
         });
         let each = each.collect();

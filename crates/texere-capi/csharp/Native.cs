@@ -217,8 +217,9 @@ namespace Texere
         /// </summary>
         internal const uint TEXERE_BACKGROUND_NOTHING = 2;
         /// <summary>
-        ///  Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
-        ///  anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
+        ///  Sections stand upright: their width lies at right angles to z. A round yarn that runs too
+        ///  steeply for that at any place has TEXERE_FRAME_ROTATION_MINIMIZING instead, along all its
+        ///  length. A flattened yarn that runs so steeply leans instead: see `lean` of `texere_ring`.
         /// </summary>
         internal const uint TEXERE_FRAME_UPRIGHT = 0;
         /// <summary>
@@ -344,9 +345,10 @@ namespace Texere
         internal const uint TEXERE_FORMAT_OBJ = 3;
         /// <summary>
         ///  glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
-        ///  extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
-        ///  largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
-        ///  made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+        ///  extension KHR_mesh_quantization allows. The largest side of the box that a yarn lies in has
+        ///  65,534 steps. Coordinates are off by half a step at most, and normals by 0.4 degrees. The mesh
+        ///  is made twice. A yarn whose box has a side of more than 655 mm is refused with
+        ///  TEXERE_UNSUPPORTED.
         /// </summary>
         internal const uint TEXERE_FORMAT_PACKED_GLB = 4;
         /// <summary>
@@ -542,10 +544,10 @@ namespace Texere
         /// <summary>
         ///  Writes a design to a file that `texere_design_read` reads. The ending of `path` says which:
         ///  `.toml` for texere's own design file, which holds woven cloth, weft knits that were read from a
-        ///  chart or a picture, and warp knits; `.wif` for a WIF 1.1 draft, which holds woven cloth, and
-        ///  leaves out what drafts don't have; `.k` or `.knitout` for a knitout file, which holds weft knits
-        ///  that were read from one. An existing file of that name is replaced only once the new one is
-        ///  complete.
+        ///  chart or a picture, and warp knits without a Jacquard bar; `.wif` for a WIF 1.1 draft, which
+        ///  holds woven cloth, and leaves out what drafts don't have; `.k` or `.knitout` for a knitout file,
+        ///  which holds weft knits that were read from one. An existing file of that name is replaced only
+        ///  once the new one is complete.
         ///
         ///  Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
         ///  file can't hold, and with TEXERE_IO if the file can't be written.
@@ -577,7 +579,7 @@ namespace Texere
         ///  "wgpu" and so on. A `name_length` of 0 is "auto".
         ///
         ///  Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
-        ///  library was built without the API that it needs.
+        ///  library was built without the API that the device needs.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_device_open", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_device_open(byte* name, System.UIntPtr name_length, texere_device** @out);
@@ -676,7 +678,7 @@ namespace Texere
 
         /// <summary>
         ///  Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-        ///  again. The bending stiffness that a design gives its yarn stays.
+        ///  again. The bending stiffness that the material has from a design stays.
         ///
         ///  Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
         ///  have.
@@ -819,8 +821,8 @@ namespace Texere
 
         /// <summary>
         ///  Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
-        ///  there are. Indices between two draws are room, and are not drawn. The draws are valid until the
-        ///  next update, or until the live cloth is freed.
+        ///  there are. Indices between two draws belong to the room into which yarns can grow, and are not
+        ///  drawn. The draws are valid until the next update, or until the live cloth is freed.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_live_draws", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_live_draws(texere_live* live, texere_draw** draws);
@@ -849,7 +851,7 @@ namespace Texere
         /// <summary>
         ///  Reads the attributes of a live cloth's vertices into the caller's memory: a `texere_attribute`
         ///  for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
-        ///  be null. The contents of the room between yarns are undefined.
+        ///  be null. The attributes in the room between yarns, into which yarns can grow, are undefined.
         ///
         ///  Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
         ///  `texere_live_update` has not been called since then and since the last edit, and for a view that
@@ -870,7 +872,7 @@ namespace Texere
 
         /// <summary>
         ///  Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
-        ///  of the room between yarns are undefined.
+        ///  of the room between yarns, into which yarns can grow, are undefined.
         ///
         ///  Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
         ///  says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
@@ -933,8 +935,8 @@ namespace Texere
         ///  `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
         ///  between values stays as it is.
         ///
-        ///  It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
-        ///  with indices that lie side by side: the mesh is then not copied value by value.
+        ///  The call is fastest with each normal right behind its position, 24 bytes from vertex to vertex,
+        ///  and with indices that lie side by side: the mesh is then not copied value by value.
         ///
         ///  Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
         ///  and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are
@@ -1000,8 +1002,8 @@ namespace Texere
         ///  has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
         ///
         ///  Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
-        ///  for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
-        ///  the length.
+        ///  for example because the hit is one of live cloth that was edited, and if `size` is neither 0 nor
+        ///  above the length.
         /// </summary>
         [DllImport(__DllName, EntryPoint = "texere_cloth_place", CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern texere_status texere_cloth_place(texere_cloth* cloth, texere_hit* hit, byte* words, System.UIntPtr size, System.UIntPtr* length);
@@ -1017,8 +1019,8 @@ namespace Texere
 
         /// <summary>
         ///  Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
-        ///  pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
-        ///  writes only which yarn it is.
+        ///  pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, the
+        ///  text only names the yarn.
         ///
         ///  Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
         ///  where the hit is.
@@ -1145,7 +1147,7 @@ namespace Texere
         /// <summary>
         ///  Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
         ///  `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
-        ///  `user` as its first argument, when the picture is made.
+        ///  `user` as its first argument, after the picture has been made.
         ///
         ///  Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
         ///  number other than 0. The bytes that came before then are not a complete file.
@@ -1357,9 +1359,10 @@ namespace Texere
         /// <summary>
         ///  Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
         ///  polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-        ///  `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
-        ///  unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
-        ///  and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
+        ///  `.usd`. Reads yarns of TexGen, `.tg3`, too, which keep the sections that they have there.
+        ///  `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns. 0 for
+        ///  either stands for what a `.usda`, `.usd` or `.tg3` file says. For other files `diameter_mm` must
+        ///  not be 0, and a `unit_mm` of 0 stands for 1 mm.
         ///
         ///  Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
         ///  lacks the diameter.
@@ -1381,8 +1384,9 @@ namespace Texere
 
         /// <summary>
         ///  Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-        ///  writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
-        ///  The callback runs on the calling thread, with `user` as its first argument.
+        ///  writes, or those of a file of straight lines with TEXERE_YARNS_FORMAT_LINEAR_USDA. `format` is a
+        ///  constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on the calling thread,
+        ///  with `user` as its first argument.
         ///
         ///  Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
         ///  TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then
@@ -1492,8 +1496,9 @@ namespace Texere
         /// </summary>
         public ulong below_one;
         /// <summary>
-        ///  The radius of the tightest bend over how far the yarn's section reaches into it, which is
-        ///  the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
+        ///  The radius of the tightest bend over how far the yarn's section reaches into the bend. A
+        ///  round yarn reaches as far as its radius. Below 1 the tube folds. Infinite if all yarns are
+        ///  straight.
         /// </summary>
         public double bend;
         /// <summary>
@@ -1576,7 +1581,7 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 if yarns of all structures can come to rest on it, else 0.
+        ///  1 if yarns of all structures can come to rest on the device, else 0.
         /// </summary>
         public uint settles;
         /// <summary>
@@ -1588,7 +1593,7 @@ namespace Texere
         /// </summary>
         public byte* device;
         /// <summary>
-        ///  Its driver, with the version.
+        ///  The driver of the device, with the version.
         /// </summary>
         public byte* driver;
         /// <summary>
@@ -1691,6 +1696,7 @@ namespace Texere
         public uint stretch;
         /// <summary>
         ///  For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+        ///  docs/SETTLING.md describes the weighted form and the block form.
         /// </summary>
         public uint passes;
         /// <summary>
@@ -1846,9 +1852,9 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
-        ///  outgrew its room. Sizes and draws may then have changed, and vertices may have other
-        ///  numbers. Else 0.
+        ///  1 if a new mesh was made, else 0. A new mesh is made in the first update, and for example
+        ///  after an edit by which a yarn outgrew its room. Sizes and draws may then have changed, and
+        ///  vertices may have other numbers.
         /// </summary>
         public uint anew;
         /// <summary>
@@ -1863,8 +1869,8 @@ namespace Texere
     }
 
     /// <summary>
-    ///  A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
-    ///  soft cotton; only design files state another one.
+    ///  A material of yarns. Its bending stiffness is that of soft cotton; only design files state
+    ///  another one. The stiffness counts for knits that come to rest by their energy.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_material
@@ -2099,9 +2105,10 @@ namespace Texere
     internal unsafe partial struct texere_packed_vertex
     {
         /// <summary>
-        ///  The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
-        ///  bits of each coordinate are kept. The two words are one number of 64 bits, the first word
-        ///  its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
+        ///  The position. Each coordinate is a whole number of steps of `quantum_mm` of
+        ///  `texere_settings`, and the lowest 21 bits of that number are kept. The two words are one
+        ///  number of 64 bits, the first word its lower half: x has bits 0 to 20, y bits 21 to 41, z
+        ///  bits 42 to 62.
         /// </summary>
         public fixed uint position[2];
         /// <summary>
@@ -2131,7 +2138,7 @@ namespace Texere
         /// </summary>
         public float along;
         /// <summary>
-        ///  The unit tangent of the yarn at that ring.
+        ///  The unit tangent of the yarn at the vertex's ring.
         /// </summary>
         public fixed float tangent[3];
     }
@@ -2173,13 +2180,15 @@ namespace Texere
         public float height_growth;
         /// <summary>
         ///  Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
-        ///  1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
+        ///  1/2^32 of a full turn. It is 0 where the height of the yarn stands upright, and another
+        ///  number on, for example, a flattened yarn that runs steeply up or down.
         /// </summary>
         public uint lean;
     }
 
     /// <summary>
-    ///  Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
+    ///  A picker, which says what a ray would hit first of the mesh of yarns. The mesh itself is not
+    ///  made.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe partial struct texere_picker
@@ -2516,9 +2525,9 @@ namespace Texere
     }
 
     /// <summary>
-    ///  Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
-    ///  two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
-    ///  older one.
+    ///  A session, which makes the mesh of a plan on the plan's device, chunk by chunk, and leaves the
+    ///  chunks there. The device holds two chunks at a time: a third one that `texere_session_mesh`
+    ///  makes takes the buffers of the older one.
     ///
     ///  One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
     ///  another thread is using it.
@@ -2539,11 +2548,11 @@ namespace Texere
         /// </summary>
         public uint struct_size;
         /// <summary>
-        ///  How many points are inserted between two control points, 0 or more.
+        ///  How many points are inserted between two control points, 0 to 1023.
         /// </summary>
         public uint subdivisions;
         /// <summary>
-        ///  How many sides the tubes have, 3 or more.
+        ///  How many sides the tubes have, 3 to 256.
         /// </summary>
         public uint sides;
         /// <summary>
@@ -2752,7 +2761,7 @@ namespace Texere
     internal unsafe partial struct texere_bar
     {
         /// <summary>
-        ///  Its chain: a lap for each course, from the first course knitted on.
+        ///  Its chain: a lap for each course, beginning with the course that is knitted first.
         /// </summary>
         public texere_lap* laps;
         /// <summary>
@@ -2959,7 +2968,8 @@ namespace Texere
         ///  The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
         ///  counted from 0. After the last one the first one follows again. Null with a `turn_count` of
         ///  0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
-        ///  a multiple of `turn_count`, the chart is repeated upwards until it is.
+        ///  a multiple of `turn_count`, the chart is repeated upwards until the number of its courses is
+        ///  such a multiple.
         /// </summary>
         public uint* turn;
         /// <summary>
@@ -2992,11 +3002,11 @@ namespace Texere
         /// </summary>
         public texere_looks looks;
         /// <summary>
-        ///  The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
-        ///  `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
-        ///  each row from left to right. A row becomes one course for each of its yarns, in the order of
-        ///  their numbers. The front needles knit the course's yarn where the picture has that yarn. The
-        ///  yarn floats past the other front needles.
+        ///  A Jacquard picture: for each cell the number of its yarn in `yarns`, counted from 0. There
+        ///  are `wales` times `courses` cells, row after row from the bottom, and in each row from left
+        ///  to right. Null for a knit that `stitches` gives. A row becomes one course for each of its
+        ///  yarns, in the order of their numbers. The front needles knit the course's yarn where the
+        ///  picture has that yarn. The yarn floats past the other front needles.
         /// </summary>
         public uint* jacquard;
     }

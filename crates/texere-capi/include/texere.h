@@ -178,8 +178,9 @@
 // Nothing. Alpha says how much of each pixel shows yarn.
 #define TEXERE_BACKGROUND_NOTHING 2
 
-// Sections stand upright: their side is at right angles to z. A yarn that is too steep for that
-// anywhere has TEXERE_FRAME_ROTATION_MINIMIZING instead.
+// Sections stand upright: their width lies at right angles to z. A round yarn that runs too
+// steeply for that at any place has TEXERE_FRAME_ROTATION_MINIMIZING instead, along all its
+// length. A flattened yarn that runs so steeply leans instead: see `lean` of `texere_ring`.
 #define TEXERE_FRAME_UPRIGHT 0
 
 // Sections are carried along the yarn without turning about it.
@@ -275,9 +276,10 @@
 #define TEXERE_FORMAT_OBJ 3
 
 // glTF 2.0 in one binary file, with 12 bytes for a vertex instead of 24: whole numbers, as the
-// extension KHR_mesh_quantization allows. Coordinates are off by half a step at most, of which the
-// largest side of the box that a yarn lies in has 65,534, and normals by 0.4 degrees. The mesh is
-// made twice. A yarn whose box has a side of more than 655 mm is refused with TEXERE_UNSUPPORTED.
+// extension KHR_mesh_quantization allows. The largest side of the box that a yarn lies in has
+// 65,534 steps. Coordinates are off by half a step at most, and normals by 0.4 degrees. The mesh
+// is made twice. A yarn whose box has a side of more than 655 mm is refused with
+// TEXERE_UNSUPPORTED.
 #define TEXERE_FORMAT_PACKED_GLB 4
 
 // A packed glTF file that is compressed to about half of its bytes, as the extension
@@ -356,7 +358,8 @@ typedef struct texere_device texere_device;
 // edits to the mesh. To undo an edit, set the old value again.
 typedef struct texere_live texere_live;
 
-// Says what a ray would hit first of the mesh of yarns. The mesh itself is not made.
+// A picker, which says what a ray would hit first of the mesh of yarns. The mesh itself is not
+// made.
 typedef struct texere_picker texere_picker;
 
 // The plan of a mesh: yarns, settings and a device. It has all sizes of the mesh before the mesh
@@ -376,9 +379,9 @@ typedef struct texere_renderer texere_renderer;
 // at 0 in each.
 typedef struct texere_run texere_run;
 
-// Makes the mesh of a plan on its device, chunk by chunk, and leaves it there. The device holds
-// two chunks at a time: a third one that `texere_session_mesh` makes takes the buffers of the
-// older one.
+// A session, which makes the mesh of a plan on the plan's device, chunk by chunk, and leaves the
+// chunks there. The device holds two chunks at a time: a third one that `texere_session_mesh`
+// makes takes the buffers of the older one.
 //
 // One thread at a time may use a session: a call fails with TEXERE_ARGUMENT while a call of
 // another thread is using it.
@@ -391,9 +394,9 @@ typedef struct texere_yarns texere_yarns;
 typedef struct texere_settings {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // How many points are inserted between two control points, 0 or more.
+  // How many points are inserted between two control points, 0 to 1023.
   uint32_t subdivisions;
-  // How many sides the tubes have, 3 or more.
+  // How many sides the tubes have, 3 to 256.
   uint32_t sides;
   // A constant whose name begins with TEXERE_FRAME.
   uint32_t frame;
@@ -424,8 +427,9 @@ typedef struct texere_diagnosis {
   uint64_t contacts;
   // How many contacts have a clearance below 1 by more than 0.001.
   uint64_t below_one;
-  // The radius of the tightest bend over how far the yarn's section reaches into it, which is
-  // the radius of a round yarn. Below 1 the tube folds. Infinite if all yarns are straight.
+  // The radius of the tightest bend over how far the yarn's section reaches into the bend. A
+  // round yarn reaches as far as its radius. Below 1 the tube folds. Infinite if all yarns are
+  // straight.
   double bend;
   // The least width of a tube of the mesh half way between two rings, as a share of the width on
   // the rings.
@@ -475,10 +479,10 @@ typedef int32_t (*texere_file_callback)(void *user,
                                         const uint8_t **data,
                                         size_t *size);
 
-// Takes `size` bytes of a file, whose place in the file begins at byte `offset`. The pieces come
+// Takes a piece of a file: `size` bytes, which begin at byte `offset` of the file. The pieces come
 // in order, except that at the end earlier bytes may come again with values that are only known
-// then. The callback returns 0 to go on; any other value ends the call that was given it. `data`
-// is valid until the callback returns.
+// then. The callback returns 0 to go on; any other value ends the call that was given this
+// callback. `data` is valid until the callback returns.
 typedef int32_t (*texere_write_callback)(void *user,
                                          uint64_t offset,
                                          const uint8_t *data,
@@ -489,13 +493,13 @@ typedef int32_t (*texere_write_callback)(void *user,
 typedef struct texere_device_info {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if yarns of all structures can come to rest on it, else 0.
+  // 1 if yarns of all structures can come to rest on the device, else 0.
   uint32_t settles;
   // The name that opens the device, such as "cpu" or "opencl:0".
   const char *name;
   // The maker's name of the device.
   const char *device;
-  // Its driver, with the version.
+  // The driver of the device, with the version.
   const char *driver;
   // How much memory the device has, bytes; 0 if it is not known.
   uint64_t memory_bytes;
@@ -529,8 +533,8 @@ typedef struct texere_point {
   float half_height;
 } texere_point;
 
-// A material of yarns. Its bending stiffness, which knits at rest by their energy use, is that of
-// soft cotton; only design files state another one.
+// A material of yarns. Its bending stiffness is that of soft cotton; only design files state
+// another one. The stiffness counts for knits that come to rest by their energy.
 typedef struct texere_material {
   // Its name, UTF-8.
   const char *name;
@@ -580,6 +584,7 @@ typedef struct texere_finish {
   // A constant whose name begins with TEXERE_STRETCH.
   uint32_t stretch;
   // For knits: how many passes settling makes at most in each of its two forms, 1 to 1000000.
+  // docs/SETTLING.md describes the weighted form and the block form.
   uint32_t passes;
   // The factor by which a stretch multiplies the length of the cloth, 0.5 to 2.
   double stretch_by;
@@ -602,9 +607,9 @@ typedef struct texere_change {
 typedef struct texere_update {
   // Size of this struct, bytes. The caller sets it.
   uint32_t struct_size;
-  // 1 if a new mesh was made: in the first update, and for example after an edit by which a yarn
-  // outgrew its room. Sizes and draws may then have changed, and vertices may have other
-  // numbers. Else 0.
+  // 1 if a new mesh was made, else 0. A new mesh is made in the first update, and for example
+  // after an edit by which a yarn outgrew its room. Sizes and draws may then have changed, and
+  // vertices may have other numbers.
   uint32_t anew;
   // The ranges that were made again. They are valid until the next update of this live cloth, or
   // until it is freed.
@@ -953,7 +958,7 @@ typedef struct texere_lap {
 
 // A guide bar.
 typedef struct texere_bar {
-  // Its chain: a lap for each course, from the first course knitted on.
+  // Its chain: a lap for each course, beginning with the course that is knitted first.
   const struct texere_lap *laps;
   // How many laps, 1 to 4096. The first lap follows the last one again.
   uint64_t lap_count;
@@ -1107,7 +1112,8 @@ typedef struct texere_weft_knit {
   // The yarns that the courses take in turn, from the first course on: numbers in `yarns`,
   // counted from 0. After the last one the first one follows again. Null with a `turn_count` of
   // 0: all courses take yarn 0, or with `jacquard` the yarns of the picture. If `courses` is not
-  // a multiple of `turn_count`, the chart is repeated upwards until it is.
+  // a multiple of `turn_count`, the chart is repeated upwards until the number of its courses is
+  // such a multiple.
   const uint32_t *turn;
   // How many numbers `turn` has.
   uint64_t turn_count;
@@ -1124,11 +1130,11 @@ typedef struct texere_weft_knit {
   double loop_length_mm;
   // The materials and sections that the yarns refer to.
   struct texere_looks looks;
-  // The yarns of a Jacquard picture, numbers in `yarns` counted from 0, or null for a knit that
-  // `stitches` gives: `wales` times `courses` of them, row after row from the bottom, and in
-  // each row from left to right. A row becomes one course for each of its yarns, in the order of
-  // their numbers. The front needles knit the course's yarn where the picture has that yarn. The
-  // yarn floats past the other front needles.
+  // A Jacquard picture: for each cell the number of its yarn in `yarns`, counted from 0. There
+  // are `wales` times `courses` cells, row after row from the bottom, and in each row from left
+  // to right. Null for a knit that `stitches` gives. A row becomes one course for each of its
+  // yarns, in the order of their numbers. The front needles knit the course's yarn where the
+  // picture has that yarn. The yarn floats past the other front needles.
   const uint32_t *jacquard;
 } texere_weft_knit;
 
@@ -1273,16 +1279,17 @@ typedef struct texere_attribute {
   float angle;
   // The length of the yarn from its start to the vertex's ring, mm.
   float along;
-  // The unit tangent of the yarn at that ring.
+  // The unit tangent of the yarn at the vertex's ring.
   float tangent[3];
 } texere_attribute;
 
 // A vertex in 12 bytes, half the size of `texere_vertex`. docs/CONVENTIONS.md says how it is
 // unpacked.
 typedef struct texere_packed_vertex {
-  // The position in whole steps of `quantum_mm` of `texere_settings`, of which the lowest 21
-  // bits of each coordinate are kept. The two words are one number of 64 bits, the first word
-  // its lower half: x has bits 0 to 20, y bits 21 to 41, z bits 42 to 62.
+  // The position. Each coordinate is a whole number of steps of `quantum_mm` of
+  // `texere_settings`, and the lowest 21 bits of that number are kept. The two words are one
+  // number of 64 bits, the first word its lower half: x has bits 0 to 20, y bits 21 to 41, z
+  // bits 42 to 62.
   uint32_t position[2];
   // The unit normal, mapped to the octahedron and from there to a square: two coordinates from
   // -1 to 1, in steps of 1/32767.
@@ -1307,7 +1314,8 @@ typedef struct texere_ring {
   // Growth of the half height along the yarn, mm per mm.
   float height_growth;
   // Turn of the yarn's outline about the tangent, against the frame TEXERE_FRAME_UPRIGHT, in
-  // 1/2^32 of a full turn. It is 0 unless a flattened yarn leans.
+  // 1/2^32 of a full turn. It is 0 where the height of the yarn stands upright, and another
+  // number on, for example, a flattened yarn that runs steeply up or down.
   uint32_t lean;
 } texere_ring;
 
@@ -1432,10 +1440,10 @@ enum texere_status texere_design_read_memory(const char *name,
 
 // Writes a design to a file that `texere_design_read` reads. The ending of `path` says which:
 // `.toml` for texere's own design file, which holds woven cloth, weft knits that were read from a
-// chart or a picture, and warp knits; `.wif` for a WIF 1.1 draft, which holds woven cloth, and
-// leaves out what drafts don't have; `.k` or `.knitout` for a knitout file, which holds weft knits
-// that were read from one. An existing file of that name is replaced only once the new one is
-// complete.
+// chart or a picture, and warp knits without a Jacquard bar; `.wif` for a WIF 1.1 draft, which
+// holds woven cloth, and leaves out what drafts don't have; `.k` or `.knitout` for a knitout file,
+// which holds weft knits that were read from one. An existing file of that name is replaced only
+// once the new one is complete.
 //
 // Fails with TEXERE_ARGUMENT for another ending, with TEXERE_UNSUPPORTED for a design that the
 // file can't hold, and with TEXERE_IO if the file can't be written.
@@ -1463,7 +1471,7 @@ void texere_design_free(struct texere_design *design);
 // "wgpu" and so on. A `name_length` of 0 is "auto".
 //
 // Fails with TEXERE_DEVICE if there is no device of that name, and with TEXERE_UNSUPPORTED if the
-// library was built without the API that it needs.
+// library was built without the API that the device needs.
 enum texere_status texere_device_open(const char *name,
                                       size_t name_length,
                                       struct texere_device **out);
@@ -1558,7 +1566,7 @@ enum texere_status texere_live_yarn(const struct texere_live *live,
                                     struct texere_yarn *what);
 
 // Replaces a material, counted from 0. The mesh holds no colours, so no part of it has to be made
-// again. The bending stiffness that a design gives its yarn stays.
+// again. The bending stiffness that the material has from a design stays.
 //
 // Fails with TEXERE_ARGUMENT if there is no such material, and for values that no material can
 // have.
@@ -1663,8 +1671,8 @@ enum texere_status texere_live_update(const struct texere_live *live,
 enum texere_status texere_live_counts(const struct texere_live *live, struct texere_counts *counts);
 
 // Lends the draws of a live cloth's mesh as of its last update. `texere_live_counts` says how many
-// there are. Indices between two draws are room, and are not drawn. The draws are valid until the
-// next update, or until the live cloth is freed.
+// there are. Indices between two draws belong to the room into which yarns can grow, and are not
+// drawn. The draws are valid until the next update, or until the live cloth is freed.
 enum texere_status texere_live_draws(const struct texere_live *live,
                                      const struct texere_draw **draws);
 
@@ -1682,7 +1690,7 @@ enum texere_status texere_live_keep_attributes(const struct texere_live *live);
 
 // Reads the attributes of a live cloth's vertices into the caller's memory: a `texere_attribute`
 // for each vertex that `texere_live_counts` counts, in the order of the mesh's vertices. `run` may
-// be null. The contents of the room between yarns are undefined.
+// be null. The attributes in the room between yarns, into which yarns can grow, are undefined.
 //
 // Fails with TEXERE_ARGUMENT if `texere_live_keep_attributes` has not been called, if
 // `texere_live_update` has not been called since then and since the last edit, and for a view that
@@ -1701,7 +1709,7 @@ enum texere_status texere_live_read_attributes(const struct texere_live *live,
                                                const struct texere_view *attributes);
 
 // Reads the whole mesh of a live cloth into the caller's memory. `run` may be null. The contents
-// of the room between yarns are undefined.
+// of the room between yarns, into which yarns can grow, are undefined.
 //
 // Fails with TEXERE_ARGUMENT if `vertex_count` or `index_count` is not what `texere_live_counts`
 // says, and if `texere_live_update` has to be called first, after an edit for example. Fails with
@@ -1764,8 +1772,8 @@ enum texere_status texere_plan_mesh(const struct texere_plan *plan,
 // `run` may be null. `texere_plan_counts` says how many vertices and indices there are. Memory
 // between values stays as it is.
 //
-// It is fastest with each normal right behind its position, 24 bytes from vertex to vertex, and
-// with indices that lie side by side: the mesh is then not copied value by value.
+// The call is fastest with each normal right behind its position, 24 bytes from vertex to vertex,
+// and with indices that lie side by side: the mesh is then not copied value by value.
 //
 // Fails with TEXERE_ARGUMENT for a view that is too small or misaligned and for null positions,
 // and with TEXERE_CANCELLED if `run` was cancelled. After a failure the contents of the memory are
@@ -1825,8 +1833,8 @@ enum texere_status texere_picker_pick(const struct texere_picker *picker,
 // has room for `size` bytes. If `size` is 0, only the length is written, and `words` may be null.
 //
 // Fails with TEXERE_ARGUMENT if the cloth has no such place, if the place is not where the hit is,
-// for example after an edit of live cloth that was hit, and if `size` is neither 0 nor above
-// the length.
+// for example because the hit is one of live cloth that was edited, and if `size` is neither 0 nor
+// above the length.
 enum texere_status texere_cloth_place(const struct texere_cloth *cloth,
                                       const struct texere_hit *hit,
                                       char *words,
@@ -1842,8 +1850,8 @@ enum texere_status texere_live_pick(const struct texere_live *live,
                                     struct texere_hit *hit);
 
 // Writes what a weaver or a knitter calls the place of a hit in a live cloth, such as `end 3 at
-// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, it
-// writes only which yarn it is.
+// pick 4, cotton`, in the same way as `texere_cloth_place`. If the yarns come from no design, the
+// text only names the yarn.
 //
 // Fails with TEXERE_ARGUMENT if the live cloth has no such place, and if the place is no longer
 // where the hit is.
@@ -1953,7 +1961,7 @@ enum texere_status texere_renderer_write(const struct texere_renderer *renderer,
 
 // Makes a picture and hands the bytes of a `.png` file to `callback`: the bytes that
 // `texere_renderer_write` writes. `run` may be null. The callback runs on the calling thread, with
-// `user` as its first argument, when the picture is made.
+// `user` as its first argument, after the picture has been made.
 //
 // Fails as `texere_renderer_picture` does, and with TEXERE_CANCELLED if the callback returned a
 // number other than 0. The bytes that came before then are not a complete file.
@@ -2134,9 +2142,10 @@ enum texere_status texere_yarns_read_memory(const char *name,
 
 // Reads curves that another program wrote, as round yarns: Binary Curve Collection, `.bcc`; the
 // polylines of Wavefront OBJ, `.obj`; or the text form of Universal Scene Description, `.usda` or
-// `.usd`. Yarns of TexGen, `.tg3`, have their sections. `unit_mm` is the length of the file's
-// unit, and `diameter_mm` the diameter of all yarns. With 0 for either, the file says it: `.usda`
-// and `.tg3` say both. The unit of other files is then 1 mm, and `diameter_mm` has to be given.
+// `.usd`. Reads yarns of TexGen, `.tg3`, too, which keep the sections that they have there.
+// `unit_mm` is the length of the file's unit, and `diameter_mm` the diameter of all yarns. 0 for
+// either stands for what a `.usda`, `.usd` or `.tg3` file says. For other files `diameter_mm` must
+// not be 0, and a `unit_mm` of 0 stands for 1 mm.
 //
 // Fails with TEXERE_IO if the file can't be read, and with TEXERE_DESIGN if it holds no curves or
 // lacks the diameter.
@@ -2158,8 +2167,9 @@ enum texere_status texere_yarns_write(const struct texere_yarns *yarns,
                                       size_t path_length);
 
 // Writes yarns and hands the bytes of the file to `callback`: the bytes that `texere_yarns_write`
-// writes, or straight lines. `format` is a constant whose name begins with TEXERE_YARNS_FORMAT.
-// The callback runs on the calling thread, with `user` as its first argument.
+// writes, or those of a file of straight lines with TEXERE_YARNS_FORMAT_LINEAR_USDA. `format` is a
+// constant whose name begins with TEXERE_YARNS_FORMAT. The callback runs on the calling thread,
+// with `user` as its first argument.
 //
 // Fails with TEXERE_UNSUPPORTED for yarns that TEXERE_YARNS_FORMAT_BCC can't hold, and with
 // TEXERE_CANCELLED if the callback returned a number other than 0. The bytes that came before then

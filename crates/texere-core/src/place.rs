@@ -11,8 +11,8 @@ use crate::{ControlPoint, Yarns};
 pub struct YarnPlace {
     /// Number of the yarn, counted from 0.
     pub yarn: usize,
-    /// Number of the control interval, which is that of the control point at its start, counted
-    /// from 0 within the yarn.
+    /// Number of the control interval, counted from 0 within the yarn. It is the number of the
+    /// control point at the interval's start.
     pub interval: usize,
     /// The parameter within the interval, from 0 to 1.
     pub t: f64,

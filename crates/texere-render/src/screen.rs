@@ -9,8 +9,9 @@ use wgpu::{BufferUsages, Extent3d, TextureFormat, TextureUsages};
 
 use crate::mapped::read_mapped;
 
-/// The number of samples of a pixel. They lie where the rasterisers of all devices have four
-/// samples, but are shifted in each pixel if threads are less than four pixels wide.
+/// The number of samples of a pixel of the screen. The rasterisers of all devices have their four
+/// samples at the same places, and pixels here have them there, too. If threads are less than four
+/// pixels wide, each pixel shifts its samples.
 pub(crate) const SAMPLES: u32 = 4;
 
 /// `SCREEN_GROUP` of `view.wgsl`.
@@ -22,12 +23,12 @@ const COLOR_BYTES: u32 = 4;
 /// The bytes of a sample's key.
 const KEY_BYTES: u64 = 8;
 
-/// The most bytes of keys: sixteen samples for each of two million pixels.
+/// The most bytes of keys: enough for a picture of two million pixels with a supersampling of 2.
 const KEYS_MOST: u64 = 256 << 20;
 
-/// The memory for pictures of one size. It takes 8 bytes a pixel, and 132 bytes times the square of
-/// the supersampling. It takes less if the keys of all samples would need more than [`KEYS_MOST`]
-/// or than a binding holds.
+/// The memory for pictures of one size. It takes 8 bytes for each pixel of the picture, and 132
+/// bytes for each pixel of the screen before the screen is scaled down. It takes less if the keys
+/// of all samples would need more than [`KEYS_MOST`] or than a binding holds.
 #[derive(Debug)]
 pub(crate) struct Screen {
     size: [u32; 2],

@@ -11,10 +11,9 @@ use crate::grid::Bounds;
 const LIMIT: u64 = 1 << 29;
 
 /// The copies of an interval's box that are searched: the copy that begins within the first repeat,
-/// and earlier copies that still reach into the first repeat. If copies of two boxes meet, both
-/// copies moved by the same number of repeats meet as well. Exactly one of these pairs consists of
-/// searched copies and has, along each axis, a copy that begins within the first repeat. Only that
-/// pair is compared.
+/// and earlier copies that still reach into the first repeat. If copies of two boxes meet, an equal
+/// pair of copies meets in every repeat. Only one of these pairs is compared. Along each axis, that
+/// copy of this pair which begins last begins within the first repeat, so both are searched.
 #[derive(Debug)]
 pub(super) struct Images {
     /// Lengths of the repeat along x and y, mm. A length is 0 if nothing repeats along that axis.

@@ -26,8 +26,8 @@ pub struct Bounds {
     pub high: [f32; 3],
 }
 
-/// The factor by which a box grows for rounding in frames, rolls and products with half widths.
-/// Sines and cosines are exact to 1.2e-7, and a tangent within 1e-6 of z counts as z.
+/// The factor by which the reach of a section grows for rounding in frames, rolls and products with
+/// half widths. Sines and cosines are exact to 1.2e-7, and a tangent within 1e-6 of z counts as z.
 const FRAME_SLACK: f32 = 1.0 + 1e-5;
 
 /// The slack for rounding in sums of coordinates, as a share of the largest coordinate. A CPU
@@ -90,7 +90,8 @@ impl Plan {
     /// #     yarns.yarn(Yarn::default(), &[0.0, 1.0, 2.0].map(|x| ControlPoint::new(x, y as f32, 0.0, 0.125)));
     /// # }
     /// # let yarns = yarns.build()?;
-    /// // Two yarns of radius 0.125 mm from x = 0 to x = 2, at y = 0 and y = 1, with a corner on top.
+    /// // Two yarns of radius 0.125 mm from x = 0 to x = 2, at y = 0 and y = 1. Their sections are
+    /// // squares with a corner on top.
     /// let plan = Plan::new(yarns.layout().clone(), Settings { sides: 4, ..Settings::default() })?;
     /// let mut points = PaddedPoints::new(&plan)?;
     /// points.upload(&plan, 0, yarns.points());
@@ -118,10 +119,11 @@ impl Plan {
     /// A box that holds the vertices of some rings of `yarn`, and therefore all triangles between
     /// them. It is [`Bounds::NOTHING`] for no rings. Rings past the last are ignored.
     ///
-    /// The box is that of the spline's Bézier hull, widened by the section's reach. Along x and y
-    /// that is the section's furthest reach, times the larger of half width and half height. Along
-    /// z it is the half height times the section's reach along its up, or times its furthest reach
-    /// if the yarn turns. If the yarn leans, it is the same along z as along x and y.
+    /// The box is that of the spline's Bézier hull, widened on all sides. Along x and y it is
+    /// widened by the larger of half width and half height, times the section's furthest reach.
+    /// Along z it is widened by the half height, times the section's reach along its up. If the
+    /// yarn turns, the half height is multiplied by the furthest reach instead. If the yarn leans,
+    /// the box is widened along z by as much as along x and y.
     ///
     /// **Panics** past the last yarn.
     #[must_use]

@@ -1,4 +1,4 @@
-//! Chunks: ranges of blocks that fit a device. A cut may lie inside a yarn.
+//! Chunks: the blocks of a plan in portions that fit a device. A cut may lie inside a yarn.
 
 use std::ops::Range;
 
@@ -37,7 +37,8 @@ pub struct Cap {
     pub first_index: u32,
 }
 
-/// A range of blocks that is launched, read and drawn together.
+/// Blocks that are launched, read and drawn together. They follow one another, but a chunk of a
+/// [region](crate::backend::Plan::within) may skip some.
 ///
 /// A chunk holds the tables for a launch: the block table, the parts, the caps, and the chunk's
 /// place in the whole. If it ends inside a yarn, it repeats the next ring, so that its triangles
@@ -63,7 +64,8 @@ pub struct Chunk {
     pub(super) plan: PlanId,
     pub(super) index: u64,
     pub(super) tables: TablesId,
-    /// The chunk's blocks, in order, as ranges of their numbers among all blocks of the plan.
+    /// The chunk's blocks, in order, as ranges of their numbers among all blocks of the plan. A
+    /// patch has the blocks of its chunk here.
     pub(super) runs: Vec<Range<u64>>,
     pub(super) window: Range<u64>,
     pub(super) blocks: Vec<Block>,
@@ -90,8 +92,8 @@ impl Chunk {
     }
 
     /// The range from the chunk's first to its last block among all blocks of the plan. A chunk of
-    /// a [region](crate::backend::Plan::within) may skip some blocks. The block table has one more
-    /// row for each repeated ring.
+    /// a [region](crate::backend::Plan::within) may skip some blocks. In the block table each
+    /// repeated ring has a row of its own, and blocks of unused room have none.
     #[must_use]
     pub(crate) const fn block_range(&self) -> Range<u64> {
         self.tables.blocks.start..self.tables.blocks.end
@@ -154,7 +156,8 @@ impl Chunk {
         self.indices
     }
 
-    /// The range of rows of the block table that hold any of `rings` of `yarn`.
+    /// The range of rows of the block table that hold any of `rings` of `yarn`. For no rings it may
+    /// hold a row.
     #[must_use]
     pub fn rows(&self, yarn: usize, rings: Range<u32>) -> Range<usize> {
         let before = |yarn: usize, ring: u32| {
@@ -181,8 +184,8 @@ impl Chunk {
 }
 
 impl Cap {
-    /// The cap at place `place` among the chunk's caps. Until the last tube is known,
-    /// `first_vertex` and `first_index` are counted in caps.
+    /// The cap at place `place` among the chunk's caps, counted from 0. For now `first_vertex` and
+    /// `first_index` are this place. `Plan::fill` replaces them when it has counted all tubes.
     pub(super) fn at(place: u32, yarn: usize, end: End, chunk_ring: u32) -> Self {
         Self { yarn: yarn as u32, end, chunk_ring, first_vertex: place, first_index: place }
     }

@@ -21,8 +21,7 @@ Along along_of(const Cloth *cloth, uint2 site, uint of_set, int steps) {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, its least area, the press, and what
-// holds the thread in its place.
+// Adds the terms of the section: its shape, its area, its least area, and the press.
 void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const ThreadRow *thread) {
     float radius = thread->radius;
     float wide = lie.z / radius;
@@ -41,8 +40,7 @@ void add_section(const Cloth *cloth, CrossingBlock *block, float4 lie, const Thr
         add_own(block, CROSSINGS_SOLID * cloth->params->penalty, 1.0f, fmin(room, 0.0f), slopes);
     }
     float press = CROSSINGS_PRESS * cloth->params->press * 4.0f * radius * radius;
-    float hold = thread->freedom > 0.0f ? 0.0f : CROSSINGS_HOLD;
-    add_alone(block, (float4)(hold, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
+    add_alone(block, (float4)(0.0f, press, 0.0f, 0.0f), 1.0f, lie, 1.0f);
 }
 
 // Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns
@@ -330,6 +328,17 @@ void add_set(const Cloth *cloth, CrossingBlock *block, uint2 site, uint of_set) 
     }
 }
 
+// Takes the own shift out of the equations: its step is 0. If it stayed, a step that can't be made
+// would lead the other unknowns to values at which the energy is not least.
+void hold(CrossingBlock *block) {
+    block->own.x = 0.0f;
+    block->own_own[0] = (float4)(1.0f, 0.0f, 0.0f, 0.0f);
+    block->own_own[1].x = 0.0f;
+    block->own_own[2].x = 0.0f;
+    block->own_own[3].x = 0.0f;
+    block->own_crossed[0] = (float4)(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
 // All terms that a crossing is part of, described from the warp.
 CrossingBlock gathered(const Cloth *cloth, uint2 site) {
     CrossingBlock block;
@@ -346,5 +355,13 @@ CrossingBlock gathered(const Cloth *cloth, uint2 site) {
         block = turned(&block);
     }
     add_contact(cloth, &block, site);
+    if (thread_of(cloth, site, WARP).freedom == 0.0f) {
+        hold(&block);
+    }
+    if (thread_of(cloth, site, WEFT).freedom == 0.0f) {
+        block = turned(&block);
+        hold(&block);
+        block = turned(&block);
+    }
     return block;
 }

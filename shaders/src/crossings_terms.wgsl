@@ -24,8 +24,7 @@ fn along_of(site: vec2<u32>, of_set: u32, steps: i32) -> Along {
     return along;
 }
 
-// Adds the terms of the section: its shape, its area, its least area, the press, and what
-// holds the thread in its place.
+// Adds the terms of the section: its shape, its area, its least area, and the press.
 fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: ThreadRow) {
     let radius = thread.radius;
     let wide = lie.z / radius;
@@ -44,8 +43,7 @@ fn add_section(block: ptr<function, CrossingBlock>, lie: vec4<f32>, thread: Thre
         add_own(block, CROSSINGS_SOLID * cloth.penalty, 1.0, min(room, 0.0), slopes);
     }
     let press = CROSSINGS_PRESS * cloth.press * 4.0 * radius * radius;
-    let hold = select(CROSSINGS_HOLD, 0.0, thread.freedom > 0.0);
-    add_alone(block, vec4(hold, press, 0.0, 0.0), 1.0, lie, 1.0);
+    add_alone(block, vec4(0.0, press, 0.0, 0.0), 1.0, lie, 1.0);
 }
 
 // Adds the term of a bend: a second difference along the thread, with slope `slope` in the unknowns
@@ -337,6 +335,17 @@ fn add_set(block: ptr<function, CrossingBlock>, site: vec2<u32>, of_set: u32) {
     }
 }
 
+// Takes the own shift out of the equations: its step is 0. If it stayed, a step that can't be made
+// would lead the other unknowns to values at which the energy is not least.
+fn hold(block: ptr<function, CrossingBlock>) {
+    (*block).own.x = 0.0;
+    (*block).own_own[0] = vec4(1.0, 0.0, 0.0, 0.0);
+    (*block).own_own[1].x = 0.0;
+    (*block).own_own[2].x = 0.0;
+    (*block).own_own[3].x = 0.0;
+    (*block).own_crossed[0] = vec4(0.0);
+}
+
 // All terms that a crossing is part of, described from the warp.
 fn gathered(site: vec2<u32>) -> CrossingBlock {
     var block: CrossingBlock;
@@ -346,5 +355,13 @@ fn gathered(site: vec2<u32>) -> CrossingBlock {
         block = turned(block);
     }
     add_contact(&block, site);
+    if thread_of(site, WARP).freedom == 0.0 {
+        hold(&block);
+    }
+    if thread_of(site, WEFT).freedom == 0.0 {
+        block = turned(block);
+        hold(&block);
+        block = turned(block);
+    }
     return block;
 }

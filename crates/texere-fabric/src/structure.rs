@@ -205,7 +205,8 @@ impl Structure {
 
     /// Relaxes one repeat of a knit, then holds it at each of `strains`, which rise, along the
     /// courses, the wales or both. Measures how it pulls, how it gets narrower and how thick it is.
-    /// Yarns get the lengths that [`Knitted::relax`] and [`WarpKnitted::relax`] give them.
+    /// Yarns get the lengths that [`Knitted::relax`] and [`WarpKnitted::relax`] give them. At rest
+    /// nothing holds the knit, whatever [`Finish::hold`] says.
     /// `tension` is the tension of all yarns' splines, from 0 to below 1.
     ///
     /// **Errors**: [`FinishError::NoEnergy`] for a fabric that is no knit, [`FinishError::Strains`]

@@ -179,8 +179,9 @@ impl Design {
 
     /// Lets a knit come to rest by its energy, then strains it along the courses, the wales or
     /// both, as `along` says. Measures how the knit pulls at each of `strains`, which rise. The
-    /// loops have the lengths that the design asks for.
-    /// `progress` gets the share of the work that is done, from 0 to 1. `Break` ends the work.
+    /// loops have the lengths that the design asks for. At rest nothing holds the knit, whatever
+    /// [`Finish::hold`](texere_fabric::Finish::hold) says. `progress` gets the share of the work
+    /// that is done, from 0 to 1. `Break` ends the work.
     ///
     /// **Errors**: a [`Refusal`] for a design that is no knit that repeats, for strains that don't
     /// rise or are out of range, for a device that can't relax yarns, and if yarns pass through one

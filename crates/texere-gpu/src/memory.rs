@@ -51,8 +51,9 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
         ("rolls", turns * size_of::<Turn>() as u64),
     ];
     // Chunks are loaded into the two slots alternately, and a slot's memory grows to that of the
-    // largest chunk in it. A scan loads the tables of its chunks first. If it has more than two,
-    // the caller's first chunk comes into the slot after that of the scan's last one.
+    // largest chunk in it. A scan loads the tables of its chunks first. If it has more than two, or
+    // if the caller's chunks are those of a region, which are no chunks of the scan, the caller's
+    // first chunk comes into the slot after that of the scan's last one.
     let mut places = [[0; 4]; 2];
     let tables = |chunk: &Chunk| {
         [bytes(chunk.blocks().len(), size_of::<Block>()), bytes(chunk.caps().len(), size_of::<CapRow>())]
@@ -65,7 +66,7 @@ pub fn device_buffers(plan: &Plan, limits: &Limits) -> Result<Vec<(&'static str,
             scanned += 1;
         }
     }
-    let shift = if scanned > 2 { scanned } else { 0 };
+    let shift = if scanned > 2 || !plan.is_whole() { scanned } else { 0 };
     // Chunks are made one by one, because the tables of all chunks together may need as much memory
     // as a device has.
     for (number, chunk) in plan.chunks(limits)?.enumerate() {

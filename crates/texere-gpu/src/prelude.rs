@@ -142,7 +142,7 @@ pub const SETTLING_CONSTANTS: [Constant; 41] = [
 /// The constants of settling by crossings, which are also written before all sources. The flags
 /// `REPEATS_ENDS` and `REPEATS_PICKS` belong to [`CrossingsParams`], and those whose names begin
 /// with `SITE` to [`CrossingSite`]. All others are constants of the core.
-pub const CROSSINGS_CONSTANTS: [Constant; 32] = [
+pub const CROSSINGS_CONSTANTS: [Constant; 31] = [
     float("CROSSINGS_AREA_LOSS", crossings::AREA_LOSS),
     float("CROSSINGS_AREA_GAIN", crossings::AREA_GAIN),
     float("CROSSINGS_SOLID", crossings::SOLID),
@@ -151,7 +151,6 @@ pub const CROSSINGS_CONSTANTS: [Constant; 32] = [
     float("CROSSINGS_TENSION", crossings::TENSION),
     float("CROSSINGS_SIDEWAYS_TENSION", crossings::SIDEWAYS_TENSION),
     float("CROSSINGS_PRESS", crossings::PRESS),
-    float("CROSSINGS_HOLD", crossings::HOLD),
     float("CROSSINGS_SMOOTH", crossings::SMOOTH),
     float("CROSSINGS_MARGIN", crossings::MARGIN),
     float("CROSSINGS_NEAR", crossings::NEAR),
@@ -219,7 +218,7 @@ mod tests {
 
     /// The constants that come from the core, each named once more. The test fails if a value in
     /// the tables above differs.
-    const OF_THE_CORE: [(&str, &[f32]); 86] = [
+    const OF_THE_CORE: [(&str, &[f32]); 85] = [
         ("BLOCK_RINGS", &[BLOCK_RINGS as f32]),
         ("TURN_STEPS", &[Turn::STEPS]),
         ("RADIANS_PER_STEP", &[Turn::RADIANS_PER_STEP]),
@@ -288,7 +287,6 @@ mod tests {
         ("CROSSINGS_TENSION", &[crossings::TENSION]),
         ("CROSSINGS_SIDEWAYS_TENSION", &[crossings::SIDEWAYS_TENSION]),
         ("CROSSINGS_PRESS", &[crossings::PRESS]),
-        ("CROSSINGS_HOLD", &[crossings::HOLD]),
         ("CROSSINGS_SMOOTH", &[crossings::SMOOTH]),
         ("CROSSINGS_MARGIN", &[crossings::MARGIN]),
         ("CROSSINGS_NEAR", &[crossings::NEAR]),

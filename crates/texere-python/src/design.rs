@@ -131,7 +131,7 @@ impl Design {
     /// and contact have the least energy, which gives the knit its gauge. A knit that is pressed,
     /// or whose lengths are free, can't rest by its energy. ``hold`` is the way along which a knit
     /// that rests by its energy keeps the size of its gauge: ``"courses"``, ``"wales"`` or
-    /// ``"both"``.
+    /// ``"both"``. With ``rest="clear"`` nothing holds it any longer.
     ///
     /// >>> texere.read("designs/herringbone.wif").finished(settle=True).settle
     /// True
@@ -187,16 +187,18 @@ impl Design {
                 Some("energy") => RestBy::Energy,
                 Some(_) => return Err(PyValueError::new_err("rest is neither 'clear' nor 'energy'")),
             },
-            hold: hold.as_deref().map(|name| strain::along("hold", name)).transpose()?.or(finish.hold),
             ..finish
         };
         let is_free = matches!(design.finish.length, Some(Length::Free { .. }));
         if design.finish.by == RestBy::Energy && (design.finish.press_mm.is_some() || is_free) {
             return Err(PyValueError::new_err("rest by energy knows no press and no free lengths"));
         }
-        if design.finish.by != RestBy::Energy && design.finish.hold.is_some() {
+        let by_energy = design.finish.by == RestBy::Energy;
+        if hold.is_some() && !by_energy {
             return Err(PyValueError::new_err("only a knit that rests by its energy can be held"));
         }
+        let held = hold.as_deref().map(|name| strain::along("hold", name)).transpose()?;
+        design.finish.hold = held.or(finish.hold).filter(|_| by_energy);
         if let Some((along, by)) = stretch {
             let along = match along.as_str() {
                 "warp" => Set::Warp,
@@ -235,8 +237,9 @@ impl Design {
     /// Lets a knit come to rest by its energy, then holds it at each of ``strains`` and measures
     /// how it pulls. ``along`` is ``courses`` (the knit gets wider, and its height is free),
     /// ``wales`` (the knit gets longer, and its width is free) or ``both``. ``strains`` are shares
-    /// of the size at rest, -0.5 to 5, each greater than the one before. Forces grow in proportion
-    /// to the bending stiffness of the yarns.
+    /// of the size at rest, -0.5 to 5, each greater than the one before. At rest nothing holds the
+    /// knit, whatever the design's ``hold`` says. Forces grow in proportion to the bending
+    /// stiffness of the yarns.
     ///
     /// ``device`` and ``progress`` are those of :meth:`rest`. The CPU does the work if ``device``
     /// can't.

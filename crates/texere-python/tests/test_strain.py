@@ -64,6 +64,8 @@ def test_a_held_knit_keeps_its_size():
     held = rib.rest(progress=False)
     assert held.is_at_rest
     assert np.ptp(held.yarns.points[:, 0]) > 0.9 * rib.size_mm[0]
+    free = rib.finished(rest="clear").finished(rest="energy").rest(progress=False)
+    assert np.ptp(free.yarns.points[:, 0]) < 0.8 * rib.size_mm[0]
 
 
 def test_a_test_can_be_cancelled():

@@ -4,7 +4,10 @@
 
 mod support;
 
-use texere_core::{Backend, Frame, Limits, Settings, Topology, Yarn};
+use std::sync::Arc;
+
+use texere_core::backend::PaddedPoints;
+use texere_core::{Backend, Bounds, Frame, Limits, Settings, Topology, Yarn};
 use texere_wgpu::{Schedule, WgpuBackend};
 
 use support::{INSTALL, plan, waves};
@@ -23,13 +26,25 @@ const ALIGNED: u64 = 128;
 #[test]
 fn buffers_are_those_of_the_plan() {
     let yarns = waves(3, 700, Yarn { twist: 0.3, ..Yarn::default() });
-    for (frame, caps, blocks) in [(Frame::Upright, false, u64::MAX), (Frame::RotationMinimizing, true, 5)] {
+    // The last case is a region whose scan goes over the whole plan in one chunk.
+    for (frame, caps, blocks, is_region) in [
+        (Frame::Upright, false, u64::MAX, false),
+        (Frame::RotationMinimizing, true, 5, false),
+        (Frame::RotationMinimizing, true, u64::MAX, true),
+    ] {
         for topology in [Topology::Indexed, Topology::Shared] {
             // Each case has a device of its own, so that the buffers of other tests are not
             // counted.
             let backend = WgpuBackend::open(0, Schedule::PerRing).expect(INSTALL);
             let backend = backend.with_limits(Limits { blocks, ..Limits::NONE });
             let plan = plan(&yarns, Settings { frame, caps, topology, sides: 5, ..Settings::default() });
+            let plan = if is_region {
+                let mut points = PaddedPoints::new(&plan).unwrap();
+                points.upload(&plan, 0, yarns.points());
+                Arc::new(plan.within(&points, &Bounds::rectangle([10.0, -100.0], [20.0, 100.0])))
+            } else {
+                plan
+            };
             let limits = backend.info().limits;
             let mut session = backend.lending_session(plan.clone()).unwrap();
             session.upload(0, yarns.points()).unwrap();

@@ -55,6 +55,17 @@ impl CrossingBlock {
         }
     }
 
+    /// Takes unknown number `held` out of the equations: its step is 0. If it stayed, a step that
+    /// can't be made would lead the other unknowns to values at which the energy is not least.
+    pub(crate) fn hold(&mut self, held: usize) {
+        self.gradient[held] = 0.0;
+        self.curvature[held] = [0.0; UNKNOWNS];
+        for row in &mut self.curvature {
+            row[held] = 0.0;
+        }
+        self.curvature[held][held] = 1.0;
+    }
+
     /// Notes a distance of two threads, divided by the distance that they need. The least is kept.
     pub(crate) const fn see(&mut self, clearance: f32) {
         self.clearance = self.clearance.min(clearance);

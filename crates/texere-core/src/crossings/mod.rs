@@ -39,6 +39,4 @@ pub use rows::{ASPECT, Row, SHAPE, Site};
 pub use run::{CrossingsRest, settle};
 pub use settler::{CrossingsSeen, CrossingsSettler};
 pub use step::{HALF_HEIGHT, HALF_WIDTH, MOMENTUM, STEP, UPHILL};
-pub use terms::{
-    AREA_GAIN, AREA_LOSS, BEND, HOLD, PRESS, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, TENSION,
-};
+pub use terms::{AREA_GAIN, AREA_LOSS, BEND, PRESS, SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, TENSION};

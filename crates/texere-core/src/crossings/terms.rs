@@ -52,11 +52,6 @@ pub const SIDEWAYS_TENSION: f32 = 0.1;
 /// With 0, `energy_goes_down_while_penalties_stay` fails.
 pub const PRESS: f32 = 0.6;
 
-/// The weight of shifts of a thread that is held in its place. The bound of its shift is 0. Without
-/// this weight the equations of a crossing would take it for a thread that shifts, and the other
-/// unknowns would end at wrong values: with 0, `dense_cloth_of_hard_and_soft_ends_is_clear` is red.
-pub const HOLD: f32 = 1e4;
-
 /// The weight of first differences of half widths and half heights along a thread, in radii. With
 /// 0, a 2/2 twill does not come to rest (`cloths_of_the_mills_come_to_rest`).
 pub const SMOOTH: f32 = 3.0;
@@ -107,15 +102,20 @@ impl CrossingsPlan {
             }
         }
         contact.add(&mut block);
+        for set in Set::BOTH {
+            if self.rows(set)[site.thread(set)].freedom == 0.0 {
+                block.hold(set.first() + SHIFT);
+            }
+        }
         block
     }
 }
 
 impl Here<'_> {
-    /// Adds the thread's own terms: shape, area, least area, press, and what holds it in its place.
+    /// Adds the thread's own terms: shape, area, least area, and press.
     fn own(&self, block: &mut CrossingBlock) {
         let (lie, row) = (self.thread(self.site), self.row);
-        let Row { radius, least_area, aspect, shape, freedom, .. } = *self.thread_row();
+        let Row { radius, least_area, aspect, shape, .. } = *self.thread_row();
         let (wide, thick) = (lie.half_width / radius, lie.half_height / radius);
         let slopes = [(row + WIDTH, 1.0 / radius), (row + THICKNESS, -aspect / radius)];
         block.add(shape, 1.0, wide - aspect * thick, slopes);
@@ -133,9 +133,6 @@ impl Here<'_> {
         }
         let press = PRESS * self.plan.press() * 4.0 * radius * radius;
         block.add(press, 1.0, lie.height, [(row + HEIGHT, 1.0)]);
-        if freedom == 0.0 {
-            block.add(HOLD, 1.0, lie.shift, [(row + SHIFT, 1.0)]);
-        }
     }
 
     /// Adds bending: second differences along the thread, at this crossing and at the crossings

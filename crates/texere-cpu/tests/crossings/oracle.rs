@@ -2,7 +2,7 @@
 //! that sum.
 
 use texere_core::crossings::{
-    AREA_GAIN, AREA_LOSS, BEND, CrossingState, CrossingsPass, CrossingsPlan, HOLD, MARGIN, NEAR, PRESS,
+    AREA_GAIN, AREA_LOSS, BEND, CrossingState, CrossingsPass, CrossingsPlan, MARGIN, NEAR, PRESS,
     SIDEWAYS_BEND, SIDEWAYS_TENSION, SMOOTH, SOLID, STEEPER, Set, Site, TENSION, TOUCH,
 };
 
@@ -134,8 +134,7 @@ impl Sum<'_> {
         let mut sum = f64::from(row.shape) * (wide - f64::from(row.aspect) * thick).powi(2)
             + f64::from(if gain < 0.0 { AREA_LOSS } else { AREA_GAIN }) * gain * gain
             + f64::from(SOLID * self.pass.penalty) * lacking * lacking
-            + f64::from(PRESS * plan.press()) * d * d * here[1].powi(2)
-            + if row.freedom == 0.0 { f64::from(HOLD) * here[0].powi(2) } else { 0.0 };
+            + f64::from(PRESS * plan.press()) * d * d * here[1].powi(2);
         let pitch = |site: Site| self.way(site, set.other(), 1);
         let [before, after] = [-1, 1].map(|along| plan.beside(site, set, along, 0));
         if let (Some(before), Some(after)) = (before, after) {

@@ -73,8 +73,9 @@ impl WarpKnitted {
     }
 
     /// Lets the yarns of one repeat come to rest by their energy, and copies the repeat. Wales and
-    /// courses follow from the run-ins: see [`RelaxedKnit::gauge`]. Without run-ins yarns keep the
-    /// lengths that the gauge's wales and courses give them.
+    /// courses follow from the run-ins, unless [`Finish::hold`] holds them: see
+    /// [`RelaxedKnit::gauge`]. Without run-ins yarns keep the lengths that the gauge's wales and
+    /// courses give them.
     ///
     /// **Errors**: [`FinishError::Relaxation`] for yarns that can't be relaxed,
     /// [`FinishError::Backend`] for a backend that can't relax yarns, and the errors of

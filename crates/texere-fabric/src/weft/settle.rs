@@ -44,7 +44,8 @@ impl Knitted {
     }
 
     /// Lets the yarns of one repeat come to rest by their energy, and copies the repeat. Wales and
-    /// courses follow from the length of the loops: see [`RelaxedKnit::gauge`].
+    /// courses follow from the length of the loops, unless [`Finish::hold`] holds them: see
+    /// [`RelaxedKnit::gauge`].
     ///
     /// Loops get, in the mean, the length that the program or the gauge gives, or keep the length
     /// that the gauge's wales and courses give them. `finish` may say another length.

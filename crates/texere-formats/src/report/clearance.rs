@@ -26,7 +26,7 @@ pub(crate) struct ClearanceReport {
 /// How a mesh is drawn between neighbouring rings.
 #[derive(Debug, Serialize)]
 pub(crate) struct DrawnReport {
-    /// The least width of a tube half way between two rings, in radii.
+    /// The least width of a tube half way between two rings, as a share of its width on them.
     pub(crate) width: f64,
     width_at: Option<DrawnPlace>,
     /// Triangles that face inwards.
@@ -209,9 +209,9 @@ impl fmt::Display for CrowdReport {
 
 impl DrawnReport {
     /// The least width of the tube and its place:
-    /// `0.149 yarn radii half way between two rings: course 3 at x 3.250, y 1.000, z -0.125 mm`.
+    /// `0.149 of the rings' width half way between two rings: course 3 at x 3, y 1, z 0 mm`.
     pub(crate) fn narrowest(&self) -> String {
-        let width = format!("{:.3} yarn radii half way between two rings", self.width);
+        let width = format!("{:.3} of the rings' width half way between two rings", self.width);
         self.width_at.as_ref().map_or(width.clone(), |at| format!("{width}: {at}"))
     }
 

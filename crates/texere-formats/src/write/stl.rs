@@ -54,8 +54,10 @@ impl<'a, W: Write + Seek> StlWriter<'a, W> {
             return Err(WriteError::TooManyFacets { facets: counts.triangles, limit: FACETS_MAX });
         }
         let mut header = [b' '; HEADER_BYTES];
-        let text =
-            format!("texere {}; unit mm; x along the weft, y along the warp", env!("CARGO_PKG_VERSION"));
+        let text = format!(
+            "texere {}; unit mm; x along weft or course, y along warp or wale",
+            env!("CARGO_PKG_VERSION")
+        );
         for (place, byte) in header.iter_mut().zip(text.bytes()) {
             *place = byte;
         }

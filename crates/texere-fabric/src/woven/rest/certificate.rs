@@ -21,7 +21,7 @@ const NEAR: f64 = 0.99;
 
 /// The clearance with which the rounds may end. With half its difference to 1, `turns_do_not_fold`
 /// is red; with twice, `neighbours_give_way_to_a_thick_end`.
-const ENOUGH: f64 = 0.986;
+pub(super) const ENOUGH: f64 = 0.986;
 
 /// The radius that every bend is brought to, as a multiple of the distance by which the thread
 /// reaches into the bend. With half its difference to 1, and with twice, `turns_do_not_fold` is

@@ -4,19 +4,24 @@ use std::ops::ControlFlow;
 
 use texere_core::Backend;
 
+use super::certificate::ENOUGH;
 use super::{Certified, SETTLED};
+use crate::diagnosis::is_clear;
 use crate::{Finish, FinishError, Thread, Woven};
 
 impl Woven {
-    /// Whether the threads of a set differ in size, stiffness or firmness.
+    /// Whether the threads of a set differ in their sections or in how they resist being pressed.
     pub(super) fn is_mixed(&self) -> bool {
-        let kind = |thread: &Thread| [thread.radius_mm, thread.stiffness, thread.firmness];
+        let kind = |thread: &Thread| {
+            let Thread { radius_mm, flatness, stiffness, firmness, least_area, section, .. } = *thread;
+            (section, [radius_mm, flatness, stiffness, firmness, least_area])
+        };
         let differ = |threads: &[Thread]| threads.windows(2).any(|pair| kind(&pair[0]) != kind(&pair[1]));
         differ(self.warp()) || differ(self.weft())
     }
 
-    /// The crossings at rest with no thread shifted sideways, if their surfaces are clearer than
-    /// those of `free`, and `free` otherwise. In dense cloth of hard and soft threads, energy is
+    /// The crossings at rest with no thread shifted sideways, if they are clear, or nearer to it
+    /// than `free`, and `free` otherwise. In dense cloth of hard and soft threads, energy is
     /// least where threads crowd beside the soft ones. Between two that crowd, a thread changes
     /// sides so steeply that its surface pierces theirs.
     pub(super) fn clearer_if_held(
@@ -30,6 +35,10 @@ impl Woven {
         let (resting, rest) =
             self.resting(finish, tension, backend, true, |done| progress(SETTLED * done))?;
         let held = self.certified(resting, rest, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
-        Ok(if held.clearance[1] > free.clearance[1] { held } else { free })
+        let worth = |rest: &Certified| {
+            let clearance = rest.clearance[1];
+            (is_clear(clearance, rest.bend), clearance.min(ENOUGH), rest.bend)
+        };
+        Ok(if worth(&held) > worth(&free) { held } else { free })
     }
 }

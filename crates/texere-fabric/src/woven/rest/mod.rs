@@ -66,7 +66,8 @@ pub struct WovenRest {
     /// distance to which a ply reaches ([`Section::Lobed`](texere_core::Section::Lobed)). It grows
     /// when plies press into one another. With 1, plied threads are round. `None` if no thread has
     /// plies. Cloth of plied threads may come to rest several times, with plies that are pressed
-    /// more each time; all other fields are those of the last time.
+    /// more each time. Cloth of mixed threads that is not clear then comes to rest once more, with
+    /// its threads held in their places. All other fields are those of the time that counts.
     pub valley: Option<f32>,
 }
 
@@ -94,11 +95,12 @@ impl Woven {
     /// Lets the cloth come to rest on `backend` as `finish` asks. Threads flatten, shift and share
     /// the crimp so that the energy of their crossings is least ([`texere_core::crossings`]), and
     /// are drawn along arcs round one another. Threads are made thinner where surfaces lack
-    /// clearance. The plies of threads press into one another ([`WovenRest::valley`]). `tension` is
-    /// the tension of the yarns' splines, from 0 to below 1. A thread with a larger
-    /// [flatness](crate::Thread::flatness) comes to rest flatter. [`Woven::crimp`] and
-    /// [`Woven::shape`] do not count. `progress` gets the share of the work done. `Break` ends the
-    /// call with [`FabricError::Cancelled`].
+    /// clearance. The plies of threads press into one another ([`WovenRest::valley`]). If threads
+    /// of a set differ and the cloth is not clear, it comes to rest once more with all threads held
+    /// in their places, and the clearer of both counts. `tension` is the tension of the yarns'
+    /// splines, from 0 to below 1. A thread with a larger [flatness](crate::Thread::flatness) comes
+    /// to rest flatter. [`Woven::crimp`] and [`Woven::shape`] do not count. `progress` gets the
+    /// share of the work done. `Break` ends the call with [`FabricError::Cancelled`].
     ///
     /// **Errors**: [`FinishError::Woven`] if `finish` asks for a length, a press or a course,
     /// [`FinishError::Crossings`] for threads that can't be settled, [`FinishError::Backend`] for a

@@ -156,6 +156,24 @@ fn dense_cloth_of_hard_and_soft_ends_is_clear() {
     }
 }
 
+/// Yarns that differ in their names alone rest as one yarn does, also in cloth without room.
+#[test]
+fn colors_do_not_change_how_cloth_rests() {
+    let thread = Thread::new(0.3, 0.15);
+    let other = Thread { material: 1, section: 1, ..thread };
+    let twill = |end: usize, pick: usize| (end + 16 - pick) % 4 < 2;
+    let points = |threads: [Thread; 2]| {
+        let threads: Vec<Thread> = threads.into_iter().cycle().take(8).collect();
+        let drawdown = Drawdown::from_fn(8, 8, twill).unwrap();
+        let (materials, sections) = (vec![Material::default(); 2], vec![Section::Circle; 2]);
+        let cloth = Woven::new(drawdown, threads.clone(), threads, materials, sections).unwrap();
+        let rest = at_rest(&cloth);
+        assert_ne!(rest.verdict(), Verdict::AtRest);
+        rest.yarns.points().to_vec()
+    };
+    assert_eq!(points([thread, thread]), points([thread, other]));
+}
+
 /// Two ends that work as one close up, because the picks are taut where they change sides. So do
 /// the picks of a hopsack.
 #[test]

@@ -43,7 +43,7 @@
 //! a killed process left there. An [`Output`] says which files must not be replaced.
 //!
 //! [`folder`](fn@folder) makes a folder of files in the same way, but never replaces a folder that
-//! has files in it.
+//! has files in it. If the process is killed, the unfinished folder stays.
 //!
 //! Each function that writes a file, except [`file`](fn@file), has a twin whose name ends in `_to`.
 //! The twin writes the same bytes to any writer of the caller's: memory, an archive, a connection.

@@ -4,8 +4,7 @@
 //! owner is dropped. Before a signal ends the program, [`abandon`] removes the file. The next write
 //! in a folder removes files that a killed process left there. A file without a lock is such a
 //! leftover: a writer holds a lock on its file, and the system releases the lock when the process
-//! ends. Unfinished folders are treated alike. Windows locks no folders: there a folder stays if
-//! the process is killed.
+//! ends. An unfinished folder has no lock, and stays if the process is killed.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -25,8 +24,8 @@ const PREFIX: &str = ".texere-";
 const RANDOM: usize = 16;
 const ENDING: &str = ".unfinished";
 
-/// The most files or folders that a writer starts for one output. The writer starts another one if
-/// a second writer, which began at the same moment, took the first for a leftover.
+/// The most files that a writer starts for one output. The writer starts another file if a second
+/// writer, which began at the same moment, took the first file for a leftover.
 const ATTEMPTS: usize = 100;
 
 /// The unfinished files of this process.
@@ -67,7 +66,7 @@ pub fn abandon() {
     let mut registry = registry();
     registry.abandoned = true;
     for file in std::mem::take(&mut registry.files) {
-        // A later write removes what can't be removed now.
+        // A later write removes a file that can't be removed now. A folder stays.
         let _ = if file.is_dir() { fs::remove_dir_all(file) } else { fs::remove_file(file) };
     }
 }
@@ -77,8 +76,6 @@ pub fn abandon() {
 pub(super) struct UnfinishedFolder {
     folder: TempDir,
     entry: Entry,
-    /// The open folder, which holds its lock. `None` where a folder can't be opened.
-    _lock: Option<File>,
 }
 
 impl UnfinishedFolder {
@@ -86,8 +83,7 @@ impl UnfinishedFolder {
     pub(super) fn beside(path: &Path) -> Result<Self, WriteError> {
         let failed = |source| WriteError::io("create", path, source);
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-        let parent = parent.unwrap_or(Path::new("."));
-        sweep(parent, |_| false);
+        let mut registry = registry_in_use().map_err(failed)?;
         let mut builder = tempfile::Builder::new();
         builder.prefix(PREFIX).rand_bytes(RANDOM).suffix(ENDING);
         #[cfg(unix)]
@@ -96,17 +92,10 @@ impl UnfinishedFolder {
             // The folder gets the permissions of any new folder, less the umask.
             builder.permissions(fs::Permissions::from_mode(0o777));
         }
-        for _ in 0..ATTEMPTS {
-            let mut registry = registry_in_use().map_err(failed)?;
-            let folder = builder.tempdir_in(parent).map_err(failed)?;
-            let lock = File::open(folder.path()).ok();
-            if lock.as_ref().map_or(Ok(true), |lock| hold(lock, folder.path())).map_err(failed)? {
-                let entry = Entry(folder.path().to_owned());
-                registry.files.insert(entry.0.clone());
-                return Ok(Self { folder, entry, _lock: lock });
-            }
-        }
-        Err(failed(ErrorKind::ResourceBusy.into()))
+        let folder = builder.tempdir_in(parent.unwrap_or(Path::new("."))).map_err(failed)?;
+        let entry = Entry(folder.path().to_owned());
+        registry.files.insert(entry.0.clone());
+        Ok(Self { folder, entry })
     }
 
     /// The folder's path until it is finished.
@@ -116,7 +105,7 @@ impl UnfinishedFolder {
 
     /// Gives the folder its name.
     pub(super) fn finish(self, path: &Path) -> Result<(), WriteError> {
-        let Self { folder, entry, _lock } = self;
+        let Self { folder, entry } = self;
         let renamed = registry_in_use().and_then(|_held| {
             fs::rename(folder.path(), path)?;
             // There is no folder of the temporary name left to remove.
@@ -161,11 +150,11 @@ impl Unfinished {
         let failed = |source| WriteError::io("create", place.path(), source);
         let permissions = place.check()?.map(|old| old.permissions());
         let folder = place.real.parent().unwrap_or(Path::new("."));
-        sweep(folder, |handle| place.spares(handle));
+        sweep(folder, &place);
         for _ in 0..ATTEMPTS {
             let mut registry = registry_in_use().map_err(failed)?;
             let file = new_file(folder).map_err(failed)?;
-            if hold(file.as_file(), file.path()).map_err(failed)? {
+            if hold(&file).map_err(failed)? {
                 let entry = Entry(file.path().to_owned());
                 registry.files.insert(entry.0.clone());
                 drop(registry);
@@ -236,25 +225,25 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Takes the lock of a new file or folder at `path`. With the lock, no other process removes it.
-/// Returns `false` if another process took it for a leftover first, and holds the lock or has
-/// removed the name.
-fn hold(file: &File, path: &Path) -> io::Result<bool> {
-    match file.try_lock() {
-        Ok(()) => Ok(is_named(path, file.try_clone()?)),
+/// Takes a new file's lock. With the lock, no other process removes the file. Returns `false` if
+/// another process took the file for a leftover first, and holds the lock or has removed the name.
+fn hold(file: &NamedTempFile) -> io::Result<bool> {
+    match file.as_file().try_lock() {
+        Ok(()) => Ok(is_named(file.path(), file.as_file().try_clone()?)),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // On a file system without locks no process gets a lock, so none removes anything.
+        // On a file system without locks no process gets a lock, so none removes the file.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }
 
-/// Removes leftovers of ended writers from `folder`, but no file that `spares` says to keep.
-fn sweep(folder: &Path, spares: impl Fn(&Handle) -> bool) {
+/// Removes leftovers of ended writers from `folder`.
+fn sweep(folder: &Path, place: &FilePlace) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let Ok(kind) = entry.file_type() else { continue };
-        if entry.file_name().to_str().is_some_and(is_name) && !kind.is_symlink() {
+        let is_ours = entry.file_name().to_str().is_some_and(is_name)
+            && entry.file_type().is_ok_and(|kind| kind.is_file());
+        if is_ours {
             // A leftover that can't be opened or removed stays. It does no harm.
-            let _ = remove_left(&entry.path(), kind.is_dir(), &spares);
+            let _ = remove_left(&entry.path(), place);
         }
     }
 }
@@ -264,17 +253,17 @@ fn is_name(name: &str) -> bool {
     random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// Removes a file or a folder with a temporary name if no writer holds its lock.
-fn remove_left(path: &Path, is_folder: bool, spares: impl Fn(&Handle) -> bool) -> io::Result<()> {
-    let file = OpenOptions::new().read(true).write(!is_folder).open(path)?;
+/// Removes a file with a temporary name if no writer holds its lock.
+fn remove_left(path: &Path, place: &FilePlace) -> io::Result<()> {
+    let file = OpenOptions::new().read(true).write(true).open(path)?;
     file.try_lock()?;
-    // The writer may have finished before the lock was taken here. Then the name is gone, or
-    // another file or folder has it. The handle keeps the lock until the leftover is removed.
+    // The writer may have finished the file before the lock was taken here. Then the name is gone,
+    // or another file has it.
     let handle = Handle::from_file(file)?;
-    if Handle::from_path(path)? != handle || spares(&handle) {
-        return Ok(());
+    if Handle::from_path(path)? == handle && !place.spares(&handle) {
+        fs::remove_file(path)?;
     }
-    if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) }
+    Ok(())
 }
 
 /// Whether `path` leads to the open `file`.

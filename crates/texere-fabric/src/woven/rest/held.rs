@@ -5,19 +5,24 @@ use std::ops::ControlFlow;
 use texere_core::Backend;
 
 use super::certificate::ENOUGH;
+use super::problem::rooms;
 use super::{Certified, SETTLED};
 use crate::diagnosis::is_clear;
 use crate::{Finish, FinishError, Thread, Woven};
 
 impl Woven {
-    /// Whether the threads of a set differ in their sections or in how they resist being pressed.
+    /// Whether the threads of a set differ in what decides how they are pressed. Colors, and
+    /// sections that need equal room, don't count.
     pub(super) fn is_mixed(&self) -> bool {
-        let kind = |thread: &Thread| {
-            let Thread { radius_mm, flatness, stiffness, firmness, least_area, section, .. } = *thread;
-            (section, [radius_mm, flatness, stiffness, firmness, least_area])
+        let kind = |(thread, room): (&Thread, [f32; 2])| {
+            let Thread { radius_mm, flatness, stiffness, firmness, least_area, .. } = *thread;
+            (room, [radius_mm, flatness, stiffness, firmness, least_area])
         };
-        let differ = |threads: &[Thread]| threads.windows(2).any(|pair| kind(&pair[0]) != kind(&pair[1]));
-        differ(self.warp()) || differ(self.weft())
+        [self.warp(), self.weft()].into_iter().zip(rooms(self)).any(|(threads, rooms)| {
+            let mut kinds = threads.iter().zip(rooms).map(kind);
+            let first = kinds.next();
+            kinds.any(|kind| Some(kind) != first)
+        })
     }
 
     /// The crossings at rest with no thread shifted sideways, if they are clear, or nearer to it
@@ -37,7 +42,7 @@ impl Woven {
         let held = self.certified(resting, rest, |done| progress(SETTLED + (1.0 - SETTLED) * done))?;
         let worth = |rest: &Certified| {
             let clearance = rest.clearance[1];
-            (is_clear(clearance, rest.bend), clearance.min(ENOUGH), rest.bend)
+            (is_clear(clearance, rest.bend), (clearance / ENOUGH).min(rest.bend))
         };
         Ok(if worth(&held) > worth(&free) { held } else { free })
     }

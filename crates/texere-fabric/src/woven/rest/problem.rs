@@ -69,7 +69,7 @@ impl Problem {
 
 /// Half width and half height of the room that each thread's section takes, as multiples of the
 /// thread's half width and half height.
-fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
+pub(super) fn rooms(cloth: &Woven) -> [Vec<[f32; 2]>; 2] {
     let reaches: Vec<Reach> = cloth.sections().iter().map(Reach::new).collect();
     [cloth.warp(), cloth.weft()].map(|threads| {
         let room = |thread: &Thread| reaches[thread.section as usize].room(thread.twist);

@@ -44,11 +44,12 @@ pub struct Stretch {
 impl Woven {
     /// The cloth stretched along one set of its threads, and `finish` with the tautness that its
     /// threads then have. All threads keep the lengths that they have when this cloth comes to rest
-    /// with the given `finish`. Threads that are pulled straighten, the threads that cross them
-    /// take their crimp, and the cloth becomes narrower. [`Woven::at_rest`] then lets it come to
-    /// rest. `tension` is the tension of the yarns' splines, from 0 to below 1. `progress` gets the
-    /// share of the work done. `Break` ends the work: on the CPU within 50 ms, on any other device
-    /// after the pass that it makes.
+    /// with the given `finish`, with threads that shift even if they would be held in their places.
+    /// Threads that are pulled straighten, the threads that cross them take their crimp, and the
+    /// cloth becomes narrower. [`Woven::at_rest`] then lets it come to rest. `tension` is the
+    /// tension of the yarns' splines, from 0 to below 1. `progress` gets the share of the work
+    /// done. `Break` ends the work: on the CPU within 50 ms, on any other device after the pass
+    /// that it makes.
     ///
     /// **Errors**: [`FinishError::Stretch`] for a factor outside its limits, or if threads would be
     /// straight or jammed before the cloth has that length. [`FinishError::Fabric`] with the errors

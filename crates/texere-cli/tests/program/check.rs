@@ -139,7 +139,7 @@ fn a_sett_beyond_the_greatest_is_said_with_what_is_within_it() {
     assert!(text.contains("sett  ends 25.00 to the cm, 22.22 is the most"), "{text}");
     assert!(text.contains("; 12.5 % beyond the most they jam or flatten: 0.45"), "{text}");
     assert!(
-        text.contains(" or yarns 1.13 times as thin") && text.matches("beyond it").count() == 1,
+        text.contains(" or yarns 1.13 times as thin") && text.matches("beyond the most").count() == 1,
         "{text}"
     );
     // With the printed spacing the sett is within the limit.

@@ -102,9 +102,9 @@ impl CrossingsPlan {
             }
         }
         contact.add(&mut block);
-        for set in Set::BOTH {
-            if self.rows(set)[site.thread(set)].freedom == 0.0 {
-                block.hold(set.first() + SHIFT);
+        for here in both {
+            if here.thread_row().freedom == 0.0 {
+                block.hold(here.row + SHIFT);
             }
         }
         block

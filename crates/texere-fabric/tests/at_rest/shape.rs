@@ -8,7 +8,7 @@ use texere_fabric::{
 
 use crate::solid::least_drawn;
 use crate::surfaces::Surfaces;
-use crate::{at_rest, plain};
+use crate::{at_rest, plain, twill};
 
 /// Cloth of these ends and picks, with the warp on the face where `up` says so.
 fn woven(up: impl FnMut(usize, usize) -> bool, warp: Vec<Thread>, weft: Vec<Thread>) -> Woven {
@@ -129,6 +129,11 @@ fn neighbours_give_way_to_a_thick_end() {
     assert!(gaps[4] > 1.05 * gaps[1] && gaps[5] > 1.05 * gaps[1], "{gaps:?}");
 }
 
+/// A 2/2 twill.
+fn even_twill(end: usize, pick: usize) -> bool {
+    (end + 16 - pick) % 4 < 2
+}
+
 /// Three ends of hard yarn and one of soft yarn, so dense that the hard ones would crowd beside the
 /// soft one, and picks would pierce them where they change sides between two of them. The cloth
 /// rests clear if its threads stay in their places.
@@ -142,10 +147,8 @@ fn dense_cloth_of_hard_and_soft_ends_is_clear() {
         let hard = Thread { firmness, ..Thread::new(pitch(per_inch), radius) };
         (0..16).map(|end| if end % 4 == 3 { soft(pitch(per_inch)) } else { hard }).collect()
     };
-    let twill = |end: usize, pick: usize| (end + 16 - pick) % 4 < 2;
-    let broad = |end: usize, pick: usize| (end + 16 - pick) % 4 < 3;
     for (name, up, per_inch) in
-        [("2/2", &twill as &dyn Fn(usize, usize) -> bool, 56.0), ("3/1", &broad, 60.0)]
+        [("2/2", &even_twill as &dyn Fn(usize, usize) -> bool, 56.0), ("3/1", &twill, 60.0)]
     {
         let cloth = woven(up, ends(per_inch), vec![soft(0.45); 16]);
         let rest = rested(&cloth);
@@ -161,10 +164,9 @@ fn dense_cloth_of_hard_and_soft_ends_is_clear() {
 fn colors_do_not_change_how_cloth_rests() {
     let thread = Thread::new(0.3, 0.15);
     let other = Thread { material: 1, section: 1, ..thread };
-    let twill = |end: usize, pick: usize| (end + 16 - pick) % 4 < 2;
     let points = |threads: [Thread; 2]| {
         let threads: Vec<Thread> = threads.into_iter().cycle().take(8).collect();
-        let drawdown = Drawdown::from_fn(8, 8, twill).unwrap();
+        let drawdown = Drawdown::from_fn(8, 8, even_twill).unwrap();
         let (materials, sections) = (vec![Material::default(); 2], vec![Section::Circle; 2]);
         let cloth = Woven::new(drawdown, threads.clone(), threads, materials, sections).unwrap();
         let rest = at_rest(&cloth);

@@ -25,6 +25,18 @@ impl Along {
         }
     }
 
+    /// The way of this name.
+    ///
+    /// ```
+    /// use texere_fabric::Along;
+    /// assert_eq!(Along::named("wales"), Some(Along::Wales));
+    /// assert_eq!(Along::named("bias"), None);
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|along| along.name() == name)
+    }
+
     /// The axes, x and y, along which the cloth keeps its length.
     pub(crate) const fn held(self) -> [bool; 2] {
         [matches!(self, Self::Courses | Self::Both), matches!(self, Self::Wales | Self::Both)]

@@ -228,7 +228,7 @@ impl Measures {
             let value = slf.getattr(name)?;
             let is_known = match value.extract::<u64>() {
                 Ok(count) => count > 0,
-                Err(_) => value.extract::<f64>().map_or(value.is_truthy()?, f64::is_finite),
+                Err(_) => value.extract::<f64>().map_or(true, f64::is_finite),
             };
             if is_known {
                 all.set_item(name, value)?;

@@ -46,9 +46,8 @@ impl StrainTest {
 ///
 /// **Errors**: `ValueError` if there is none.
 pub(crate) fn along(argument: &str, name: &str) -> PyResult<Along> {
-    let found = Along::ALL.into_iter().find(|along| along.name() == name);
     let refused = || format!("{argument} is '{name}', expected courses, wales or both");
-    found.ok_or_else(|| PyValueError::new_err(refused()))
+    Along::named(name).ok_or_else(|| PyValueError::new_err(refused()))
 }
 
 #[pymethods]

@@ -235,8 +235,7 @@ pub(crate) struct TestArgs {
 
 /// A way along which a knit is strained, from its name.
 fn along(text: &str) -> Result<Along, String> {
-    let named = Along::ALL.into_iter().find(|along| along.name() == text);
-    named.ok_or_else(|| "expected courses, wales or both".into())
+    Along::named(text).ok_or_else(|| "expected courses, wales or both".into())
 }
 
 /// A greatest strain from its number.

@@ -8,6 +8,7 @@ mod contacts;
 mod crowds;
 mod downhill;
 mod drawn;
+mod flat;
 mod length;
 #[path = "../oracle/mod.rs"]
 mod oracle;

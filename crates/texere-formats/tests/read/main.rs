@@ -3,6 +3,8 @@
 
 mod curves;
 mod design_file;
+mod design_finish;
+mod design_yarns;
 mod drafts;
 mod from_memory;
 mod images;

@@ -97,8 +97,7 @@ impl FinishTable {
         if self.by(source)? != RestBy::Energy {
             return Err(source.odd(field, given, "only with finish.rest = \"energy\""));
         }
-        let named = |along: &Along| given.as_ref().text() == Some(along.name());
-        let found = Along::ALL.into_iter().find(named);
+        let found = given.as_ref().text().and_then(Along::named);
         found.map(Some).ok_or_else(|| source.odd(field, given, "\"courses\", \"wales\" or \"both\""))
     }
 

@@ -23,14 +23,14 @@ fn end_to_end(criterion: &mut Criterion) {
         let (ends, picks) = size;
         let path = format!("{}/../designs/paper/{ends}x{picks}.toml", env!("CARGO_MANIFEST_DIR"));
         let yarns = || texere::read(&path).unwrap().yarns().unwrap();
-        let counts = *Pipeline::new(&yarns()).plan().unwrap().counts();
+        let counts = *Pipeline::new(yarns()).plan().unwrap().counts();
         let (elements, bytes) = (counts.triangles, counts.bytes());
         let bench = Bench { stage: "end_to_end", fabric: "paper", size, backend, elements, bytes };
-        floor.bench(criterion, &bench, || timed(|| Pipeline::new(&yarns()).mesh(&*device).unwrap()));
+        floor.bench(criterion, &bench, || timed(|| Pipeline::new(yarns()).mesh(&*device).unwrap()));
         if size != SIZES[0] {
             continue;
         }
-        let written = || texere::write::stream(Pipeline::new(&yarns()), &*device, &file).unwrap();
+        let written = || texere::write::stream(Pipeline::new(yarns()), &*device, &file).unwrap();
         written();
         let bytes = std::fs::metadata(&file).unwrap().len();
         floor.bench(criterion, &Bench { fabric: "paper-glb", bytes, ..bench }, || timed(written));

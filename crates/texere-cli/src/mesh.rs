@@ -28,7 +28,7 @@ pub(crate) fn run(args: &MeshArgs) -> Result<(), Fail> {
             return Err(Fail::needs_mesh(option, &args.output));
         }
         // Only settling needs a device here.
-        return Cloth::new(args, open)?.print(|yarns, output| saved(args, yarns, output));
+        return Cloth::new(args, open)?.print(|yarns, output| saved(args, &yarns, output));
     }
     let device = open()?;
     Cloth::new(args, || Ok(&*device))?.print(|yarns, output| meshed(args, yarns, &*device, output))
@@ -60,8 +60,8 @@ impl Cloth {
 
     /// Writes the file with `write`. Prints the warnings, then the report of settling, and last the
     /// lines about the file, which `write` returns.
-    fn print(self, write: impl FnOnce(&Yarns, Output) -> Result<String, Fail>) -> Result<(), Fail> {
-        let written = write(&self.yarns, self.output)?;
+    fn print(self, write: impl FnOnce(Yarns, Output) -> Result<String, Fail>) -> Result<(), Fail> {
+        let written = write(self.yarns, self.output)?;
         for warning in self.warnings {
             print::text(&format!("warning: {}\n", line(warning)))?;
         }
@@ -101,14 +101,15 @@ fn saved(args: &MeshArgs, yarns: &Yarns, output: Output) -> Result<String, Fail>
     Ok(format!("{}: {count}, {points}, {bytes} bytes\n", line(args.output.display())))
 }
 
-/// Writes the mesh of the yarns. Returns the lines to print about the mesh and the file.
-fn meshed(args: &MeshArgs, yarns: &Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
-    let settings = args.settings.of(yarns);
+/// Writes the mesh of the yarns, which are freed on the way. Returns the lines to print about the
+/// mesh and the file.
+fn meshed(args: &MeshArgs, yarns: Yarns, device: &dyn Backend, output: Output) -> Result<String, Fail> {
+    let settings = args.settings.of(&yarns);
+    let warning = undersampled(&yarns, &settings).map(|warning| format!("warning: {}\n", line(warning)));
     let bar = progress::bar(std::io::stderr().is_terminal());
     let pipeline = Pipeline::new(yarns).settings(settings).progress(progress::reporter(&bar));
     let written = texere::write::stream(pipeline, device, output)?;
     bar.finish_and_clear();
-    let warning = undersampled(yarns, &settings).map(|warning| format!("warning: {}\n", line(warning)));
     Ok(format!(
         "{}{}: {} triangles, {} vertices, {} bytes, made by {}\n",
         warning.unwrap_or_default(),

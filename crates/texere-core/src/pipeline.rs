@@ -3,6 +3,7 @@
 mod error;
 mod run;
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -27,8 +28,26 @@ pub use self::run::{Progress, Run};
 /// # Ok(())
 /// # }
 /// ```
+///
+/// A pipeline borrows its yarns, or owns them. One that owns the only copy of its yarns frees their
+/// control points while it sends them to the device, so that a large fabric is in memory once:
+///
+/// ```
+/// # use texere_core::backend::NullBackend;
+/// # use texere_core::{ControlPoint, Yarn, Yarns};
+/// # fn example(yarns: Yarns, device: &dyn texere_core::Backend) -> Result<(), texere_core::PipelineError> {
+/// use std::ops::ControlFlow;
+/// use texere_core::Pipeline;
+/// let mut vertices = 0;
+/// let _ = Pipeline::new(yarns).stream(device, |chunk, _| {
+///     vertices += chunk.vertices();
+///     ControlFlow::<()>::Continue(())
+/// })?;
+/// # Ok(())
+/// # }
+/// ```
 pub struct Pipeline<'a> {
-    yarns: &'a Yarns,
+    yarns: Cow<'a, Yarns>,
     settings: Settings,
     /// Whether the number of subdivisions follows the twist of the yarns: true until the caller
     /// chooses a number.
@@ -54,10 +73,11 @@ impl<'a> Pipeline<'a> {
     /// as [`Settings::following`] makes it. Tubes with a polygon section have as many sides as the
     /// polygon has corners. [`Pipeline::subdivisions`] and [`Pipeline::sides`] override both.
     #[must_use]
-    pub fn new(yarns: &'a Yarns) -> Self {
+    pub fn new(yarns: impl Into<Cow<'a, Yarns>>) -> Self {
+        let yarns = yarns.into();
         Self {
+            settings: Settings::sided(&yarns),
             yarns,
-            settings: Settings::sided(yarns),
             follows_twist: true,
             limits: Limits::default(),
             within: None,
@@ -188,19 +208,19 @@ impl<'a> Pipeline<'a> {
 
     /// The yarns.
     #[must_use]
-    pub const fn yarns(&self) -> &'a Yarns {
-        self.yarns
+    pub fn yarns(&self) -> &Yarns {
+        &self.yarns
     }
 
     /// The settings of the mesh, with subdivisions that follow twist unless others were chosen.
     fn chosen(&self) -> Settings {
-        if self.follows_twist { self.settings.following(self.yarns) } else { self.settings }
+        if self.follows_twist { self.settings.following(&self.yarns) } else { self.settings }
     }
 
     /// The warning that the mesh undersamples the twist of the yarns, if it does.
     #[must_use]
     pub fn undersampled(&self) -> Option<Undersampled> {
-        Undersampled::of(self.yarns, &self.chosen())
+        Undersampled::of(&self.yarns, &self.chosen())
     }
 
     /// The plan for these settings.
@@ -323,7 +343,7 @@ impl<'a> Pipeline<'a> {
         let plan = Arc::new(self.plan()?);
         let points = match self.settler {
             Some(settler) => Points::Settled(settler),
-            None => Points::Given(self.yarns.points()),
+            None => Points::of(self.yarns),
         };
         let progress = self.progress.unwrap_or_else(|| Box::new(|_| ControlFlow::Continue(())));
         Run::of(device, plan, points, &self.limits, progress)

@@ -2,6 +2,7 @@
 
 mod error;
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -220,6 +221,12 @@ impl Yarns {
         &self.points
     }
 
+    /// All control points, without the rest of the yarns. Other copies of these yarns may share
+    /// them.
+    pub(crate) fn into_points(self) -> Arc<Vec<ControlPoint>> {
+        self.points
+    }
+
     /// The [source](Yarns::with_sources) of each control point, if there are sources.
     #[must_use]
     pub fn sources(&self) -> Option<&[u32]> {
@@ -267,6 +274,18 @@ impl Yarns {
         check_materials(&self.layout, &materials)?;
         self.materials = materials.into();
         Ok(())
+    }
+}
+
+impl<'a> From<&'a Yarns> for Cow<'a, Yarns> {
+    fn from(yarns: &'a Yarns) -> Self {
+        Self::Borrowed(yarns)
+    }
+}
+
+impl From<Yarns> for Cow<'_, Yarns> {
+    fn from(yarns: Yarns) -> Self {
+        Self::Owned(yarns)
     }
 }
 

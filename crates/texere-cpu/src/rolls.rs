@@ -11,12 +11,27 @@ pub(crate) struct Rolls {
     /// away each ring's share of the yarn's total turn. Empty if no yarn turns.
     pub(crate) at_block: Vec<Turn>,
     /// For each ring, the sum of the steps to it from the first ring of its block. The rings of a
-    /// yarn follow those of the yarn before. Empty if no yarn turns, and for the serial functions,
-    /// which add the steps up themselves.
-    pub(crate) in_block: Vec<Turn>,
+    /// yarn follow those of the yarn before. The rings are none if no yarn turns. The serial
+    /// functions don't use these sums.
+    pub(crate) in_block: Sums,
     /// For each yarn, the sum of all its steps: the turn of its section from the first ring to the
     /// last. Empty if no yarn turns.
     pub(crate) whole: Vec<Turn>,
+}
+
+/// The sums of the steps inside blocks, for each ring of a plan.
+#[derive(Debug, Clone)]
+pub(crate) enum Sums {
+    /// The sums of all rings so far.
+    Kept(Vec<Turn>),
+    /// The sums are not kept. A stage works out those of the rings that it makes.
+    MadeAgain,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Self::Kept(Vec::new())
+    }
 }
 
 impl Rolls {

@@ -61,7 +61,7 @@ fn a_design_file_that_names_a_knitting_program_is_said_to_need_its_feature() {
 fn a_mesh_that_this_build_cannot_write_is_said_to_need_its_feature() {
     let mut yarns = Yarns::builder();
     yarns.yarn(Yarn::default(), &[0.0, 1.0].map(|x| ControlPoint::new(x, 0.0, 0.0, 0.1)));
-    let mesh = Pipeline::new(&yarns.build().unwrap()).mesh(&NullBackend::default()).unwrap();
+    let mesh = Pipeline::new(yarns.build().unwrap()).mesh(&NullBackend::default()).unwrap();
     for (format, is_there) in [
         (Format::Glb, cfg!(feature = "glb")),
         (Format::Ply, cfg!(feature = "ply")),

@@ -268,7 +268,7 @@ fn ends_as_fresh(
         return Ok(());
     }
     live.update().unwrap();
-    let fresh = Pipeline::new(&yarns_of(&fabric)).settings(settings).mesh(device).unwrap();
+    let fresh = Pipeline::new(yarns_of(&fabric)).settings(settings).mesh(device).unwrap();
     let edited = read(&mut live);
     let counts =
         |mesh: &Mesh| (mesh.plan.counts().rings, mesh.plan.counts().vertices, mesh.plan.counts().triangles);
@@ -280,7 +280,7 @@ fn ends_as_fresh(
     }
     if has_attributes {
         let own = read_attributes(&mut live, &edited);
-        let others = Pipeline::new(&yarns_of(&fabric)).settings(settings).attributes(device).unwrap();
+        let others = Pipeline::new(yarns_of(&fabric)).settings(settings).attributes(device).unwrap();
         prop_assert!(
             by_ring(&edited, &own) == by_ring(&fresh, &others),
             "attributes on {}",
@@ -302,7 +302,7 @@ fn edited_yarns_end_as_a_fresh_mesh() {
                 let plan = Arc::new(Plan::new(short().layout().clone(), Settings::default()).unwrap());
                 let refused = LiveMesh::new(&**device, plan).unwrap_err();
                 assert!(matches!(refused, SessionError::Backend(BackendError::NoEditing)), "{refused}");
-                let refused = Pipeline::new(&short()).attributes(&**device).unwrap_err();
+                let refused = Pipeline::new(short()).attributes(&**device).unwrap_err();
                 assert!(matches!(refused, PipelineError::Backend(BackendError::NoAttributes)), "{refused}");
                 continue;
             }
@@ -364,7 +364,7 @@ fn each_point_of_a_long_yarn_moves_alone() {
             let changes = live.update().unwrap();
             let rings: u32 = changes.iter().map(|change| change.vertices.len() as u32 / 3).sum();
             assert!(closed || rings <= 128, "point {at}: {rings} rings");
-            let fresh = Pipeline::new(&yarns_of(&fabric)).settings(settings).mesh(device).unwrap();
+            let fresh = Pipeline::new(yarns_of(&fabric)).settings(settings).mesh(device).unwrap();
             assert!(triangles(&read(&mut live)) == triangles(&fresh), "point {at}");
         }
     }

@@ -1,6 +1,6 @@
 //! A plan that is run on a device, chunk by chunk.
 
-use std::borrow::Borrow;
+use std::borrow::{Borrow, Cow};
 use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::error::PipelineError;
 use crate::backend::{Chunk, MeshMut, Plan, Session, SessionError, WorkWatch};
 use crate::definitions::Ring;
 use crate::settling::Settler;
-use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology};
+use crate::{Attribute, Backend, ControlPoint, Limits, MeshPiece, PackedVertex, Topology, Yarns};
 
 /// Control points per call of upload: 16 MB. Between two calls progress is reported and a
 /// cancellation noticed.
@@ -29,7 +29,19 @@ pub(super) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + Se
 /// The origin of control points.
 pub(super) enum Points<'a> {
     Given(&'a [ControlPoint]),
+    /// Points whose memory is freed while they are sent, unless something else holds them.
+    Owned(Arc<Vec<ControlPoint>>),
     Settled(&'a mut dyn Settler),
+}
+
+impl<'a> Points<'a> {
+    /// The points of `yarns`. The rest of owned yarns is dropped.
+    pub(super) fn of(yarns: Cow<'a, Yarns>) -> Self {
+        match yarns {
+            Cow::Borrowed(yarns) => Self::Given(yarns.points()),
+            Cow::Owned(yarns) => Self::Owned(yarns.into_points()),
+        }
+    }
 }
 
 /// A plan that is run on a device, chunk by chunk, with its results in the caller's memory. A
@@ -108,6 +120,21 @@ impl<'a> Run<'a> {
                 for points in all.chunks(UPLOAD_POINTS) {
                     run.session.upload(first, points)?;
                     first += points.len() as u64;
+                    run.report()?;
+                }
+            }
+            Points::Owned(mut points) => {
+                // The last points are sent first, so that the memory behind the first ones can be
+                // given back. The cuts are those of given points.
+                let mut end = points.len();
+                while end > 0 {
+                    let first = (end - 1) / UPLOAD_POINTS * UPLOAD_POINTS;
+                    run.session.upload(first as u64, &points[first..end])?;
+                    if let Some(points) = Arc::get_mut(&mut points) {
+                        points.truncate(first);
+                        points.shrink_to_fit();
+                    }
+                    end = first;
                     run.report()?;
                 }
             }

@@ -4,6 +4,7 @@
 use texere_core::backend::{BLOCK_RINGS, Block};
 
 use super::rings::{Rings, Source, Stretch, Walk};
+use super::scan;
 use super::simd::{Job, Simd};
 use super::spline::Seats;
 use super::turns;
@@ -60,11 +61,14 @@ impl<'a> Maker<'a> {
         let mut walk = Walk::<S, FLATTENED>::new(simd, self.source(), stretch);
         let rolled = plan.turns(stretch.yarn);
         let number = block_number(plan, &blocks[0]);
+        let sums = rolled.then(|| scan::in_blocks(simd, self.source(), rolls, stretch));
+        let sums = sums.as_deref().unwrap_or_default();
         while let count @ 1.. = walk.left() {
             let (done, mut rings, mut roll) = (walk.done, walk.next(), simd.splat_integer(0));
             if rolled {
                 let block = number + u64::from(done / BLOCK_RINGS);
-                roll = turns::rolls(simd, plan, rolls, stretch.yarn, stretch.first + done, block);
+                let (yarn, in_block) = (stretch.yarn, &sums[done as usize..]);
+                roll = turns::rolls(simd, plan, rolls, in_block, yarn, stretch.first + done, block);
                 rings = rings.turned(simd, roll);
             }
             sink.take::<S, FLATTENED>(simd, &rings, roll, rolled, count);

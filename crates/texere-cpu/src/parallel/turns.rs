@@ -97,18 +97,19 @@ impl<S: Simd, const FLATTENED: bool> Rings<S, FLATTENED> {
     }
 }
 
-/// The rolls of a vector of rings of `yarn`, from ring `first` in block `block` on.
+/// The rolls of a vector of rings of `yarn`, from ring `first` in block `block` on. `in_block` are
+/// the sums of steps inside the block, from there on.
 #[cfg_attr(optimized, inline(always))]
 pub(super) fn rolls<S: Simd>(
     simd: S,
     plan: &Plan,
     rolls: &Rolls,
+    in_block: &[Turn],
     yarn: usize,
     first: u32,
     block: u64,
 ) -> S::Integers {
-    let place = (plan.ring_offsets()[yarn] + u64::from(first)) as usize;
-    let in_block = simd.load_integers(bytemuck::cast_slice(&rolls.in_block[place..]));
+    let in_block = simd.load_integers(bytemuck::cast_slice(in_block));
     let sums = simd.splat_integer(rolls.at_block(block).0) + in_block;
     if !plan.yarn(yarn).closed {
         return sums;

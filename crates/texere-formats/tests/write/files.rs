@@ -223,7 +223,7 @@ fn a_target_that_is_a_folder_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fabric.ply");
     fs::create_dir(&path).unwrap();
-    let error = stream(Pipeline::new(&fabric()), &path).unwrap_err();
+    let error = stream(Pipeline::new(fabric()), &path).unwrap_err();
     assert_eq!(kind(&error), Some(("create", ErrorKind::IsADirectory)));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
@@ -246,7 +246,7 @@ fn an_old_file_is_replaced_and_nothing_else_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fabric.ply");
     fs::write(&path, "old").unwrap();
-    stream(Pipeline::new(&fabric()), &path).unwrap();
+    stream(Pipeline::new(fabric()), &path).unwrap();
     let contents = contents(&folder);
     assert_eq!(contents.len(), 1);
     assert!(contents[0].1.starts_with(b"ply\n"));
@@ -255,7 +255,7 @@ fn an_old_file_is_replaced_and_nothing_else_is_left() {
 #[test]
 fn unknown_extensions_are_refused_before_any_work() {
     for path in ["fabric", "fabric.", ".glb", "fabric.glb.zip", "glb"] {
-        let error = stream(Pipeline::new(&fabric()), Path::new(path)).unwrap_err();
+        let error = stream(Pipeline::new(fabric()), Path::new(path)).unwrap_err();
         assert!(matches!(error, WriteError::UnknownFormat { .. }), "{path}: {error:?}");
     }
 }

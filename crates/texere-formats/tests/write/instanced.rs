@@ -218,7 +218,7 @@ fn parts_that_differ_a_little_are_held_each() {
                 .collect();
             yarns.yarn(Yarn { origin: Origin::End(end + 1), ..Yarn::default() }, &points);
         }
-        Pipeline::new(&yarns.build().unwrap()).sides(6).mesh(&SerialBackend::new()).unwrap()
+        Pipeline::new(yarns.build().unwrap()).sides(6).mesh(&SerialBackend::new()).unwrap()
     };
     let held = [0.0, 0.005, 0.002].map(|moved| assert_draws(&mesh(moved), "straight ends")[0]);
     assert!(held[1] > held[0] && held[2] > held[0], "{held:?}");
@@ -233,7 +233,7 @@ fn parts_far_away_are_held_each() {
         let points = [0.0, 1.0, 2.0].map(|pick| ControlPoint::new(1e5 + end as f32, pick, 0.0, radius));
         yarns.yarn(Yarn { origin: Origin::End(end + 1), ..Yarn::default() }, &points);
     }
-    let mesh = Pipeline::new(&yarns.build().unwrap()).sides(6).mesh(&SerialBackend::new()).unwrap();
+    let mesh = Pipeline::new(yarns.build().unwrap()).sides(6).mesh(&SerialBackend::new()).unwrap();
     assert_eq!(assert_draws(&mesh, "two ends"), [2, 2]);
 }
 
